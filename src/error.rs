@@ -1,0 +1,119 @@
+//! The one error type: each arm is one status of the C ABI.
+
+/// What every fallible function of the library returns.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// Why a call failed. Every message is one sentence that names the value and
+/// the index at fault.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A pointer that must not be NULL is NULL (C ABI only).
+    #[error("{0}")]
+    NullPointer(String),
+    /// An option or argument lies outside its range.
+    #[error("{0}")]
+    InvalidArgument(String),
+    /// A coordinate or value is NaN or infinite.
+    #[error("{0}")]
+    NotFinite(String),
+    /// A triangle, label or sphere index does not exist.
+    #[error("{0}")]
+    IndexOutOfRange(String),
+    /// There is nothing to work on: no face, no solid cell.
+    #[error("{0}")]
+    Empty(String),
+    /// The shape has no volume.
+    #[error("{0}")]
+    ZeroVolume(String),
+    /// The surface is so open that its inside is not defined.
+    #[error("{0}")]
+    OpenSurface(String),
+    /// The shape is several disconnected bodies and the choice was to refuse.
+    #[error("{0}")]
+    SeveralBodies(String),
+    /// A file is malformed or truncated, or its header lies.
+    #[error("{0}")]
+    Format(String),
+    /// A file or request of a kind that this build does not handle.
+    #[error("{0}")]
+    Unsupported(String),
+    /// The operating system refused to read or write.
+    #[error("{0}")]
+    Io(String),
+    /// The work would take more memory than the option allows.
+    #[error("{0}")]
+    MemoryLimit(String),
+    /// The system has no memory left for a reservation.
+    #[error("{0}")]
+    OutOfMemory(String),
+    /// The caller's array is too short (C ABI only).
+    #[error("{0}")]
+    BufferTooSmall(String),
+    /// The progress callback asked to stop before there was a result.
+    #[error("{0}")]
+    Cancelled(String),
+    /// A struct's `struct_size` is one that this library does not know (C ABI only).
+    #[error("{0}")]
+    StructSize(String),
+    /// A count does not fit: the input is larger than the library can index.
+    #[error("{0}")]
+    TooLarge(String),
+    /// The value asked for was not among the call's `wants`.
+    #[error("{0}")]
+    NotWanted(String),
+    /// No sphere satisfies the constraints.
+    #[error("{0}")]
+    NoSpheres(String),
+    /// A defect of the library itself: please report it.
+    #[error("{0}")]
+    Internal(String),
+}
+
+impl Error {
+    /// The number of this error in the C ABI. 0 is success; numbers are never reused.
+    pub fn status(&self) -> i32 {
+        match self {
+            Error::NullPointer(_) => 1,
+            Error::InvalidArgument(_) => 2,
+            Error::NotFinite(_) => 3,
+            Error::IndexOutOfRange(_) => 4,
+            Error::Empty(_) => 5,
+            Error::ZeroVolume(_) => 6,
+            Error::OpenSurface(_) => 7,
+            Error::SeveralBodies(_) => 8,
+            Error::Format(_) => 9,
+            Error::Unsupported(_) => 10,
+            Error::Io(_) => 11,
+            Error::MemoryLimit(_) => 12,
+            Error::OutOfMemory(_) => 13,
+            Error::BufferTooSmall(_) => 14,
+            Error::Cancelled(_) => 15,
+            Error::StructSize(_) => 16,
+            Error::TooLarge(_) => 17,
+            Error::NotWanted(_) => 18,
+            Error::NoSpheres(_) => 19,
+            Error::Internal(_) => 20,
+        }
+    }
+}
+
+/// Reserves `len` elements without aborting the process when memory is short.
+/// Every reservation whose size depends on the input goes through here.
+pub fn reserve<T>(what: &str, len: usize) -> Result<Vec<T>> {
+    let mut v = Vec::new();
+    v.try_reserve_exact(len).map_err(|_| {
+        Error::OutOfMemory(format!(
+            "no memory for {what}: {len} elements of {} bytes",
+            std::mem::size_of::<T>()
+        ))
+    })?;
+    Ok(v)
+}
+
+/// As [`reserve`], filled with `value`.
+pub fn filled<T: Clone>(what: &str, len: usize, value: T) -> Result<Vec<T>> {
+    let mut v = reserve(what, len)?;
+    v.resize(len, value);
+    Ok(v)
+}

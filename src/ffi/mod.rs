@@ -1,0 +1,2 @@
+//! The C ABI. The only room with `unsafe`.
+#![allow(unsafe_code)]

@@ -1,0 +1,91 @@
+//! The methods that turn a solid into a clump.
+
+pub mod mss;
+
+use crate::clump::Clump;
+use crate::error::{Error, Result};
+use crate::measure::{self, QualityOptions};
+use crate::run::{Run, Stage};
+use crate::solid::Solid;
+
+/// A method.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Local maxima of the distance transform, then of 2E − Ẽ (paper 002).
+    #[default]
+    Mss,
+}
+
+/// What a generator is asked for. The criteria apply alone or together; the
+/// first that is met stops the method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GenerateOptions {
+    /// The method.
+    pub method: Method,
+    /// Number of spheres; 0: no limit (then another criterion must be given).
+    pub spheres: usize,
+    /// Stop at this mismatch D on the method's own grid; 0: no target.
+    pub mismatch: f64,
+    /// Least radius, in the caller's unit.
+    pub min_radius: f64,
+    /// Least distance between centres, in cells (δ_min of paper 002, section 3.4).
+    pub min_distance: f64,
+    /// Added to every radius, in cells; 0 has no bias.
+    pub radius_offset: f64,
+    /// Limit the radii so that no sphere reaches beyond the true surface (paper 002, section 3.5).
+    pub confine: bool,
+    /// Quality to measure on the result; `None` costs nothing.
+    pub quality: Option<QualityOptions>,
+}
+
+impl Default for GenerateOptions {
+    fn default() -> Self {
+        GenerateOptions {
+            method: Method::Mss,
+            spheres: 50,
+            mismatch: 0.0,
+            min_radius: 0.0,
+            min_distance: 0.0,
+            radius_offset: 0.0,
+            confine: false,
+            quality: None,
+        }
+    }
+}
+
+/// Makes a clump.
+pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
+    check(options)?;
+    let mut clump = run.time(Stage::Generate, || match options.method {
+        Method::Mss => mss::mss(solid, options, run),
+    })?;
+    if let Some(wanted) = &options.quality {
+        let quality =
+            run.time(Stage::Measure, || measure::quality(solid, &clump.spheres, wanted, run))?;
+        clump.quality = Some(quality);
+    }
+    clump.counters = run.counters();
+    Ok(clump)
+}
+
+fn check(o: &GenerateOptions) -> Result<()> {
+    for (name, value) in
+        [("mismatch", o.mismatch), ("min_radius", o.min_radius), ("min_distance", o.min_distance)]
+    {
+        if !(value.is_finite() && value >= 0.0) {
+            return Err(Error::InvalidArgument(format!("{name} is {value}, not a number ≥ 0")));
+        }
+    }
+    if !o.radius_offset.is_finite() {
+        return Err(Error::InvalidArgument(format!(
+            "radius_offset is {}, not a number",
+            o.radius_offset
+        )));
+    }
+    if o.spheres == 0 && o.mismatch == 0.0 && o.min_radius == 0.0 {
+        return Err(Error::InvalidArgument(
+            "no criterion is given: spheres, mismatch and min_radius are all 0".into(),
+        ));
+    }
+    Ok(())
+}

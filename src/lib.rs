@@ -1,0 +1,28 @@
+//! Morula turns the shape of a particle into a clump of overlapping spheres
+//! that a DEM solver can use, from inside that solver, while it runs.
+//!
+//! The way of the data, and the order of the modules:
+//! [`shape`] (what the user hands in) → [`solid`] (signed distance and exact
+//! moments) → [`measure`] (how far a clump is from its solid) → [`clump`] (the
+//! result) → [`generate`] (the methods that make it). A module imports only
+//! from those before it. [`ffi`] is the C ABI and the only `unsafe`.
+//!
+//! The library is unit-free: lengths are in the caller's unit, moments are per
+//! unit density, and a density is mass per (that length)³.
+
+pub mod clump;
+pub mod error;
+pub mod ffi;
+pub mod generate;
+pub mod math;
+pub mod measure;
+pub mod run;
+pub mod shape;
+pub mod solid;
+
+pub use clump::Clump;
+pub use error::{Error, Result};
+pub use math::Sphere;
+pub use run::Run;
+pub use shape::Shape;
+pub use solid::Solid;

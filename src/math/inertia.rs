@@ -1,0 +1,110 @@
+use super::Vec3;
+use nalgebra::{Matrix3, SymmetricEigen};
+
+/// A symmetric inertia tensor, order `xx, yy, zz, xy, xz, yz`; the products
+/// carry their sign: `xy = −∫ x y dm`, so these are the tensor's own entries.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Inertia {
+    /// ∫ (y² + z²) dm
+    pub xx: f64,
+    /// ∫ (x² + z²) dm
+    pub yy: f64,
+    /// ∫ (x² + y²) dm
+    pub zz: f64,
+    /// −∫ x y dm
+    pub xy: f64,
+    /// −∫ x z dm
+    pub xz: f64,
+    /// −∫ y z dm
+    pub yz: f64,
+}
+
+impl Inertia {
+    /// The tensor from its second moments `∫ x², y², z², xy, xz, yz`.
+    pub fn from_second_moments(m: [f64; 6]) -> Self {
+        let [x2, y2, z2, xy, xz, yz] = m;
+        Inertia { xx: y2 + z2, yy: x2 + z2, zz: x2 + y2, xy: -xy, xz: -xz, yz: -yz }
+    }
+
+    /// The full matrix.
+    pub fn matrix(&self) -> Matrix3<f64> {
+        Matrix3::new(
+            self.xx, self.xy, self.xz, self.xy, self.yy, self.yz, self.xz, self.yz, self.zz,
+        )
+    }
+
+    /// The six entries of a symmetric matrix.
+    pub fn from_matrix(m: &Matrix3<f64>) -> Self {
+        Inertia {
+            xx: m[(0, 0)],
+            yy: m[(1, 1)],
+            zz: m[(2, 2)],
+            xy: m[(0, 1)],
+            xz: m[(0, 2)],
+            yz: m[(1, 2)],
+        }
+    }
+
+    /// In the order of the C ABI: `xx, yy, zz, xy, xz, yz`.
+    pub fn to_array(&self) -> [f64; 6] {
+        [self.xx, self.yy, self.zz, self.xy, self.xz, self.yz]
+    }
+
+    /// The tensor about a point `d` away from the centre of a body of mass `mass`
+    /// whose tensor about its centre is `self` (Steiner).
+    pub fn shifted(&self, mass: f64, d: &Vec3) -> Self {
+        Inertia::from_matrix(
+            &(self.matrix() + (Matrix3::identity() * d.norm_squared() - d * d.transpose()) * mass),
+        )
+    }
+}
+
+/// Volume, centroid and inertia about the centroid, at unit density.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moments {
+    /// Volume.
+    pub volume: f64,
+    /// Centre of mass.
+    pub centroid: Vec3,
+    /// Inertia about the centroid at unit density.
+    pub inertia: Inertia,
+    /// Bound on the relative error of the volume: 0 for exact integrals (up to rounding).
+    pub relative_error: f64,
+}
+
+/// Principal moments and axes of an inertia tensor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrincipalFrame {
+    /// Principal moments, ascending.
+    pub moments: [f64; 3],
+    /// Columns are the body axes in the input frame; right-handed.
+    pub axes: Matrix3<f64>,
+    /// The same rotation, body to input, as `w, x, y, z` with w ≥ 0.
+    pub quaternion: [f64; 4],
+}
+
+impl PrincipalFrame {
+    /// The principal frame of `inertia`. (First form; degenerate axes and signs
+    /// follow in this file.)
+    pub fn of(inertia: &Inertia) -> Self {
+        let e = SymmetricEigen::new(inertia.matrix());
+        let mut order = [0, 1, 2];
+        order.sort_by(|&a, &b| e.eigenvalues[a].total_cmp(&e.eigenvalues[b]));
+        let mut axes = Matrix3::from_columns(&[
+            e.eigenvectors.column(order[0]).into_owned(),
+            e.eigenvectors.column(order[1]).into_owned(),
+            e.eigenvectors.column(order[2]).into_owned(),
+        ]);
+        if axes.determinant() < 0.0 {
+            let flipped = -axes.column(2).into_owned();
+            axes.set_column(2, &flipped);
+        }
+        let q = nalgebra::UnitQuaternion::from_matrix(&axes);
+        let s = if q.w < 0.0 { -1.0 } else { 1.0 };
+        PrincipalFrame {
+            moments: order.map(|i| e.eigenvalues[i]),
+            axes,
+            quaternion: [q.w * s, q.i * s, q.j * s, q.k * s],
+        }
+    }
+}

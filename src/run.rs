@@ -1,0 +1,234 @@
+//! What a call runs with: its own threads, seed, deadline, progress and cancel,
+//! and the stage times and counters that it leaves behind.
+//!
+//! This is the only file that names rayon: a process-wide pool would hang in a
+//! forked child and fight with a host's MPI ranks, so each call owns its pool,
+//! and nothing runs on a pool that the call did not build.
+
+use crate::error::{Error, Result};
+use rayon::prelude::*;
+use std::cell::{Cell, RefCell};
+use std::time::{Duration, Instant};
+
+/// The threads of one call. Work is always split the same way, whatever the
+/// number of threads, so that results are the same bytes.
+pub struct Pool {
+    pool: Option<rayon::ThreadPool>,
+}
+
+impl Pool {
+    /// A pool of `threads`; 0 means all cores, 1 runs on the calling thread.
+    pub fn new(threads: usize) -> Result<Self> {
+        let threads = match threads {
+            0 => std::thread::available_parallelism().map_or(1, |n| n.get()),
+            n => n,
+        };
+        if threads == 1 {
+            return Ok(Pool { pool: None });
+        }
+        if threads > 1024 {
+            return Err(Error::InvalidArgument(format!("threads is {threads}, more than 1024")));
+        }
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
+            Error::OutOfMemory(format!("{threads} threads could not be started: {e}"))
+        })?;
+        Ok(Pool { pool: Some(pool) })
+    }
+
+    /// A pool that runs everything on the calling thread.
+    pub fn serial() -> Self {
+        Pool { pool: None }
+    }
+
+    /// How many threads work.
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, |p| p.current_num_threads())
+    }
+
+    /// `f(0), f(1), …, f(n−1)`, in this order whatever the number of threads.
+    pub fn map<T: Send>(&self, n: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+        match &self.pool {
+            Some(p) if n > 1 => p.install(|| (0..n).into_par_iter().map(f).collect()),
+            _ => (0..n).map(f).collect(),
+        }
+    }
+
+    /// Calls `f(index of the chunk, chunk)` for each run of `len` elements.
+    pub fn chunks_mut<T: Send>(
+        &self,
+        data: &mut [T],
+        len: usize,
+        f: impl Fn(usize, &mut [T]) + Sync + Send,
+    ) {
+        let len = len.max(1);
+        match &self.pool {
+            Some(p) if data.len() > len => {
+                p.install(|| data.par_chunks_mut(len).enumerate().for_each(|(i, c)| f(i, c)));
+            }
+            _ => data.chunks_mut(len).enumerate().for_each(|(i, c)| f(i, c)),
+        }
+    }
+}
+
+/// The parts of the work that are timed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Reading a file.
+    Read,
+    /// Checks, welding and repair.
+    Check,
+    /// The solid: grid, inside, distance.
+    Solid,
+    /// The generator.
+    Generate,
+    /// Quality figures.
+    Measure,
+    /// Exact moments.
+    Moments,
+}
+
+/// Number of [`Stage`]s.
+pub const STAGES: usize = 6;
+
+/// What a call did. All zero for work that was not asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Counters {
+    /// Wall-clock seconds of each [`Stage`], in the order of the enum.
+    pub seconds: [f64; STAGES],
+    /// Grid cells made.
+    pub cells: u64,
+    /// Greatest number of bytes that the large arrays held at once (estimate from their sizes).
+    pub peak_bytes: u64,
+    /// Distance transforms run.
+    pub transforms: u64,
+    /// Exact point–surface distances asked for.
+    pub exact_distances: u64,
+    /// Local maxima looked at.
+    pub maxima: u64,
+    /// Spheres tried.
+    pub spheres_tried: u64,
+    /// Columns measured.
+    pub columns: u64,
+}
+
+/// What a call runs with. It lives on the calling thread; only its [`Pool`] is shared.
+pub struct Run<'a> {
+    pool: Pool,
+    seed: u64,
+    started: Instant,
+    deadline: Option<Instant>,
+    progress: RefCell<Option<Progress<'a>>>,
+    fraction: Cell<f64>,
+    cancelled: Cell<bool>,
+    counters: RefCell<Counters>,
+}
+
+/// Called on the caller's thread with a fraction in [0, 1] that never falls;
+/// returns `true` to cancel.
+pub type Progress<'a> = Box<dyn FnMut(f64) -> bool + 'a>;
+
+impl Default for Run<'_> {
+    fn default() -> Self {
+        Run::serial()
+    }
+}
+
+impl<'a> Run<'a> {
+    /// A run on `threads` threads (0: all cores).
+    pub fn new(threads: usize) -> Result<Self> {
+        Ok(Run { pool: Pool::new(threads)?, ..Run::serial() })
+    }
+
+    /// A run on the calling thread.
+    pub fn serial() -> Self {
+        Run {
+            pool: Pool::serial(),
+            seed: 0,
+            started: Instant::now(),
+            deadline: None,
+            progress: RefCell::new(None),
+            fraction: Cell::new(0.0),
+            cancelled: Cell::new(false),
+            counters: RefCell::new(Counters::default()),
+        }
+    }
+
+    /// Sets the seed of every random choice.
+    pub fn with_seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Sets the deadline, in seconds from now; it only decides between fixed
+    /// checkpoints. Not finite or absurdly far means none.
+    pub fn with_deadline(mut self, seconds: f64) -> Self {
+        self.deadline =
+            Duration::try_from_secs_f64(seconds).ok().and_then(|d| self.started.checked_add(d));
+        self
+    }
+
+    /// Sets the progress callback.
+    pub fn with_progress(mut self, progress: Progress<'a>) -> Self {
+        self.progress = RefCell::new(Some(progress));
+        self
+    }
+
+    /// The threads.
+    pub fn pool(&self) -> &Pool {
+        &self.pool
+    }
+
+    /// The seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Reports progress in [0, 1]. Smaller values than the last are raised to it.
+    /// After a cancel this stays `true`.
+    pub fn cancelled(&self, fraction: f64) -> bool {
+        if self.cancelled.get() {
+            return true;
+        }
+        let f = if fraction.is_finite() { fraction.clamp(self.fraction.get(), 1.0) } else { 0.0 };
+        self.fraction.set(f.max(self.fraction.get()));
+        // A callback that calls back into the library finds the cell taken: no progress then.
+        if let Ok(mut slot) = self.progress.try_borrow_mut()
+            && let Some(progress) = slot.as_mut()
+            && progress(self.fraction.get())
+        {
+            self.cancelled.set(true);
+        }
+        self.cancelled.get()
+    }
+
+    /// As [`Run::cancelled`], as an error for work that has no partial result.
+    pub fn check(&self, fraction: f64, what: &str) -> Result<()> {
+        if self.cancelled(fraction) {
+            return Err(Error::Cancelled(format!("cancelled by the caller while {what}")));
+        }
+        Ok(())
+    }
+
+    /// Whether the deadline has passed.
+    pub fn late(&self) -> bool {
+        self.deadline.is_some_and(|d| Instant::now() >= d)
+    }
+
+    /// Times `work` under `stage`. Nested stages count twice: keep them apart.
+    pub fn time<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = work();
+        self.counters.borrow_mut().seconds[stage as usize] += start.elapsed().as_secs_f64();
+        result
+    }
+
+    /// Changes the counters.
+    pub fn count(&self, change: impl FnOnce(&mut Counters)) {
+        change(&mut self.counters.borrow_mut());
+    }
+
+    /// The counters so far.
+    pub fn counters(&self) -> Counters {
+        *self.counters.borrow()
+    }
+}

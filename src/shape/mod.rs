@@ -1,0 +1,72 @@
+//! What the user hands in: meshes, voxels, labels, analytic particles, files;
+//! checked, repaired where that is safe, or refused with the reason.
+
+pub mod mesh;
+pub mod primitive;
+#[cfg(feature = "io")]
+pub mod read;
+pub mod report;
+pub mod voxels;
+
+pub use mesh::Mesh;
+pub use primitive::Primitive;
+pub use report::Report;
+pub use voxels::{Layout, Voxels};
+
+use crate::math::UnitFrame;
+
+/// What to do with a shape that is several disconnected bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Bodies {
+    /// Refuse, with the count.
+    #[default]
+    Refuse,
+    /// Keep the body of greatest volume, and say so in the report.
+    Largest,
+    /// Keep all of them as one particle.
+    All,
+}
+
+/// How a shape is taken in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportOptions {
+    /// Vertices nearer than this times the longest bounding-box edge are one. 0: only equal ones.
+    pub weld_tolerance: f64,
+    /// The file's or array's length unit in the caller's unit: coordinates are multiplied by it.
+    pub length_unit: f64,
+    /// What to do with several bodies.
+    pub bodies: Bodies,
+    /// Most bytes that the shape's arrays may take.
+    pub memory_limit: u64,
+}
+
+impl Default for ImportOptions {
+    fn default() -> Self {
+        ImportOptions {
+            weld_tolerance: 1e-6,
+            length_unit: 1.0,
+            bodies: Bodies::Refuse,
+            memory_limit: 2 << 30,
+        }
+    }
+}
+
+/// The body of a shape, in the unit frame.
+#[derive(Debug, Clone)]
+pub enum Body {
+    /// A triangle mesh.
+    Mesh(Mesh),
+    /// Solid cells.
+    Voxels(Voxels),
+}
+
+/// A checked shape: something with an inside.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// The body, in the unit frame.
+    pub body: Body,
+    /// From the caller's frame to the unit frame.
+    pub frame: UnitFrame,
+    /// What was found and what was done about it, in the caller's frame.
+    pub report: Report,
+}

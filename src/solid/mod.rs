@@ -1,0 +1,117 @@
+//! The solid: what every generator and every measure reads. A grid of cells,
+//! which of them are in, the signed distance at their centres, exact distances
+//! and intervals, exact moments. All in the unit frame.
+
+pub mod columns;
+pub mod edt;
+pub mod field;
+pub mod grid;
+pub mod moments;
+pub mod nearest;
+pub mod winding;
+
+pub use columns::Columns;
+pub use grid::{Grid, Resolution};
+
+use crate::error::Result;
+use crate::math::{Moments, UnitFrame, Vec3};
+use crate::run::Run;
+use crate::shape::{Body, Shape};
+use nearest::Surface;
+use std::sync::OnceLock;
+
+/// How a solid is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolidOptions {
+    /// How fine the grid is. Voxel shapes keep their own cells.
+    pub resolution: Resolution,
+    /// Empty cells around the shape, at least 2 (paper 002, eq 6).
+    pub padding: usize,
+    /// Most bytes that grid arrays may take together.
+    pub memory_limit: u64,
+}
+
+impl Default for SolidOptions {
+    fn default() -> Self {
+        SolidOptions { resolution: Resolution::CellsLongest(64), padding: 4, memory_limit: 2 << 30 }
+    }
+}
+
+/// A shape with a grid. The signed distance field is made when first asked for.
+pub struct Solid {
+    body: Body,
+    frame: UnitFrame,
+    grid: Grid,
+    inside: Vec<u8>,
+    distance: OnceLock<Vec<f32>>,
+    surface: Surface,
+    moments: Moments,
+    notes: Vec<String>,
+    memory_limit: u64,
+}
+
+impl Solid {
+    /// The body, in the unit frame.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// From the caller's frame to the unit frame.
+    pub fn frame(&self) -> &UnitFrame {
+        &self.frame
+    }
+
+    /// The grid, in the unit frame.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// 1 for cells of which more than half is covered (paper 002, eq 5), else 0; x fastest.
+    pub fn inside(&self) -> &[u8] {
+        &self.inside
+    }
+
+    /// Exact distances to the surface.
+    pub fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// Volume, centroid, inertia at unit density, in the caller's frame.
+    pub fn moments(&self) -> Moments {
+        self.frame.moments_to_input(&self.moments)
+    }
+
+    /// The same in the unit frame.
+    pub fn unit_moments(&self) -> &Moments {
+        &self.moments
+    }
+
+    /// What a user should know about the solid: too few cells across, overlaps found.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Signed distance at the cell centres, negative inside.
+    pub fn distance(&self, run: &Run) -> Result<&[f32]> {
+        if self.distance.get().is_none() {
+            let d = field::signed_distance(self, run)?;
+            let _ = self.distance.set(d);
+        }
+        Ok(self.distance.get().map_or(&[], |d| d.as_slice()))
+    }
+
+    /// The distance field between cell centres: trilinear, clamped to the grid outside it.
+    pub fn distance_at(&self, run: &Run, p: &Vec3) -> Result<f64> {
+        Ok(self.grid.trilinear(self.distance(run)?, p))
+    }
+
+    /// The memory limit that the solid was made with, for what is made from it.
+    pub fn memory_limit(&self) -> u64 {
+        self.memory_limit
+    }
+
+    /// Makes the grid of `shape`, decides which cells are in and integrates the moments.
+    pub fn new(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<Solid> {
+        grid::build(shape, options, run)
+    }
+}
