@@ -14,6 +14,24 @@ use std::time::{Duration, Instant};
 /// number of threads, so that results are the same bytes.
 pub struct Pool {
     pool: Option<rayon::ThreadPool>,
+    /// The pool's threads: rayon only tells them to stop, so that without
+    /// joining they could outlive the call by a moment.
+    workers: Vec<std::thread::JoinHandle<()>>,
+}
+
+thread_local! {
+    /// Whether a panic on this thread is reported to the caller as a status, so
+    /// that nothing is printed. Workers take it over from the thread that made the pool.
+    pub(crate) static QUIET: Cell<bool> = const { Cell::new(false) };
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        drop(self.pool.take());
+        for worker in self.workers.drain(..) {
+            let _ = worker.join();
+        }
+    }
 }
 
 impl Pool {
@@ -24,20 +42,36 @@ impl Pool {
             n => n,
         };
         if threads == 1 {
-            return Ok(Pool { pool: None });
+            return Ok(Pool::serial());
         }
         if threads > 1024 {
             return Err(Error::InvalidArgument(format!("threads is {threads}, more than 1024")));
         }
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|e| {
-            Error::OutOfMemory(format!("{threads} threads could not be started: {e}"))
-        })?;
-        Ok(Pool { pool: Some(pool) })
+        let quiet = QUIET.get();
+        let mut workers = Vec::with_capacity(threads);
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .spawn_handler(|thread| {
+                let name = format!("morula-{}", thread.index());
+                workers.push(std::thread::Builder::new().name(name).spawn(move || {
+                    QUIET.set(quiet);
+                    thread.run();
+                })?);
+                Ok(())
+            })
+            .build();
+        match pool {
+            Ok(pool) => Ok(Pool { pool: Some(pool), workers }),
+            Err(e) => {
+                drop(Pool { pool: None, workers });
+                Err(Error::OutOfMemory(format!("{threads} threads could not be started: {e}")))
+            }
+        }
     }
 
     /// A pool that runs everything on the calling thread.
     pub fn serial() -> Self {
-        Pool { pool: None }
+        Pool { pool: None, workers: Vec::new() }
     }
 
     /// How many threads work.
