@@ -1,9 +1,16 @@
-//! Voxels from arrays: masks, grey volumes, labels.
+//! Voxels from arrays: masks, grey volumes, labels. Every way in ends in
+//! [`mask::build`], which finds the bodies, crops and reports.
 
-use super::{ImportOptions, Shape};
+mod bodies;
+mod grey;
+mod labels;
+mod mask;
+
+pub use grey::{F32_BINS, otsu};
+pub use labels::list_labels;
+
 use crate::error::{Error, Result};
 use crate::math::Vec3;
-use crate::run::Run;
 
 /// How an array of voxels lies in space. The array is stored with x fastest:
 /// the cell (i, j, k) is element `i + nx (j + ny k)` and covers
@@ -66,45 +73,41 @@ pub struct LabelInfo {
     pub touches_border: bool,
 }
 
-impl Shape {
-    /// A shape from a mask: cells other than 0 are solid.
-    pub fn from_mask(
-        mask: &[u8],
-        layout: &Layout,
-        options: &ImportOptions,
-        run: &Run,
-    ) -> Result<Shape> {
-        let _ = (mask, layout, options, run);
-        Err(Error::Internal("voxels are not built yet".into()))
+impl Layout {
+    /// Checks dimensions, spacing and origin, and that the array has `len` cells.
+    pub(crate) fn check(&self, len: usize) -> Result<()> {
+        let [nx, ny, nz] = self.dims;
+        let cells = nx.checked_mul(ny).and_then(|n| n.checked_mul(nz)).ok_or_else(|| {
+            Error::TooLarge(format!("{nx} x {ny} x {nz} voxels are more than can be counted"))
+        })?;
+        if cells != len {
+            return Err(Error::InvalidArgument(format!(
+                "the array has {len} values, but {nx} x {ny} x {nz} voxels are {cells}"
+            )));
+        }
+        if cells == 0 {
+            return Err(Error::Empty(format!("an array of {nx} x {ny} x {nz} voxels holds none")));
+        }
+        for a in 0..3 {
+            let axis = ["x", "y", "z"][a];
+            // Rows and runs are counted in 32 bits.
+            if u32::try_from(self.dims[a]).is_err() {
+                return Err(Error::TooLarge(format!(
+                    "{} voxels along {axis} are more than 2^32 - 1",
+                    self.dims[a]
+                )));
+            }
+            let (h, o) = (self.spacing[a], self.origin[a]);
+            if !h.is_finite() || !o.is_finite() {
+                let (what, value) = if h.is_finite() { ("origin", o) } else { ("spacing", h) };
+                return Err(Error::NotFinite(format!("the {what} along {axis} is {value}")));
+            }
+            if h <= 0.0 {
+                return Err(Error::InvalidArgument(format!(
+                    "the spacing along {axis} is {h}, not greater than 0"
+                )));
+            }
+        }
+        Ok(())
     }
-
-    /// A shape from a grey volume.
-    pub fn from_grey(
-        values: Grey,
-        layout: &Layout,
-        threshold: Threshold,
-        options: &ImportOptions,
-        run: &Run,
-    ) -> Result<Shape> {
-        let _ = (values, layout, threshold, options, run);
-        Err(Error::Internal("grey volumes are not built yet".into()))
-    }
-
-    /// The shape of one label of a label volume.
-    pub fn from_label(
-        labels: &[u32],
-        layout: &Layout,
-        label: u32,
-        options: &ImportOptions,
-        run: &Run,
-    ) -> Result<Shape> {
-        let _ = (labels, layout, label, options, run);
-        Err(Error::Internal("label volumes are not built yet".into()))
-    }
-}
-
-/// The labels of a volume, ascending, without 0.
-pub fn list_labels(labels: &[u32], layout: &Layout) -> Result<Vec<LabelInfo>> {
-    let _ = (labels, layout);
-    Err(Error::Internal("label volumes are not built yet".into()))
 }
