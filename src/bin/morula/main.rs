@@ -1,3 +1,78 @@
-//! The command line.
+//! The command line: a thin face on the library.
+//!
+//! Exit codes: 0 success, 1 failure (one sentence on stderr, ending in the
+//! status name of the C ABI), 2 wrong usage. A reader that closes our pipe
+//! early ends the program quietly with 0.
 
-fn main() {}
+mod clump;
+mod fail;
+mod info;
+mod input;
+mod progress;
+mod sample;
+mod write;
+
+use clap::{Parser, Subcommand};
+use fail::Fail;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Turns the shape of a particle into a clump of overlapping spheres for DEM solvers.
+#[derive(Parser)]
+#[command(name = "morula", version, after_help = "Exit codes: 0 success, 1 failure, 2 usage.")]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Make a clump of a shape and write its spheres
+    Clump(clump::Args),
+    /// Say what a shape is: report, moments, principal frame, labels
+    Info(info::Args),
+    /// Write a built-in analytic particle as a mesh
+    Sample(sample::Args),
+}
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(e) => return parsing_stopped(&e),
+    };
+    let done = match &cli.command {
+        Command::Clump(args) => clump::run(args),
+        Command::Info(args) => info::run(args),
+        Command::Sample(args) => sample::run(args),
+    };
+    match done {
+        Ok(()) | Err(Fail::Pipe) => ExitCode::SUCCESS,
+        Err(fail) => {
+            let _ = writeln!(std::io::stderr(), "morula: {fail}");
+            ExitCode::from(fail.exit_code())
+        }
+    }
+}
+
+/// Help and version go to stdout; anything else is one sentence on stderr.
+fn parsing_stopped(e: &clap::Error) -> ExitCode {
+    if !e.use_stderr() {
+        let _ = e.print();
+        return ExitCode::SUCCESS;
+    }
+    let text = e.render().to_string();
+    if text.starts_with("error:") {
+        let _ = writeln!(std::io::stderr(), "morula: {}", one_sentence(&text));
+    } else {
+        // No subcommand at all: clap renders the help.
+        let _ = write!(std::io::stderr(), "{text}");
+    }
+    ExitCode::from(2)
+}
+
+/// The first paragraph of clap's message in one line.
+fn one_sentence(text: &str) -> String {
+    let first = text.trim_start_matches("error:").split("\n\n").next().unwrap_or("");
+    let words: Vec<&str> = first.split_whitespace().collect();
+    format!("{} (try --help)", words.join(" "))
+}

@@ -1,0 +1,287 @@
+//! `morula clump`: a shape in, spheres out.
+
+use crate::fail::{About, Done, Fail};
+use crate::input::{self, Fineness, Reading};
+use crate::progress::Bar;
+use crate::write::{self, ClumpFormat};
+use clap::ValueEnum;
+use morula::generate::{GenerateOptions, Method, generate};
+use morula::math::{Moments, PrincipalFrame, Sphere};
+use morula::measure::QualityOptions;
+use morula::{Clump, Run, Shape, Solid};
+use serde_json::{Value, json};
+use std::time::Instant;
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// Shape: STL, OBJ, PLY, OFF, npy, TIFF or raw voxels, or sample:NAME[,key=value…]
+    input: String,
+    /// Number of spheres; 0: no limit [default: 50, or no limit with --mismatch or --min-radius]
+    #[arg(short = 'n', long = "spheres", value_name = "N")]
+    spheres: Option<usize>,
+    /// File to write; - is stdout [default: stdout]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<String>,
+    /// Format of the file [default: told by its extension, else csv]
+    #[arg(long, value_enum)]
+    format: Option<ClumpFormat>,
+    /// Print one JSON object with the figures on stdout (with the spheres when no file is named)
+    #[arg(long)]
+    json: bool,
+    /// Frame of the spheres: the input's, or the body's (centre of mass, principal axes)
+    #[arg(long, value_enum, default_value_t = Frame::Input)]
+    frame: Frame,
+    /// Density, mass per cubed length unit: adds mass, centre and inertia to the figures
+    #[arg(long, value_parser = input::positive)]
+    density: Option<f64>,
+    /// Quality to measure: overlap (D, coverage, overshoot), full (also the surface), none
+    #[arg(long, value_enum, default_value_t = Wanted::Full)]
+    quality: Wanted,
+    /// Count the spheres that one plane touches within this length; may be given more than once
+    #[arg(long, value_name = "LENGTH", value_parser = input::positive)]
+    plane_tolerance: Vec<f64>,
+    #[command(flatten)]
+    making: Making,
+    #[command(flatten)]
+    fineness: Fineness,
+    #[command(flatten)]
+    reading: Reading,
+    /// Threads; 0: all cores. The result does not depend on it
+    #[arg(long, default_value_t = 0)]
+    threads: usize,
+    /// Seed of every random choice
+    #[arg(long, default_value_t = 0)]
+    seed: u64,
+    /// No progress bar, no summary
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+#[derive(clap::Args)]
+#[command(next_help_heading = "Method")]
+struct Making {
+    /// How spheres are found
+    #[arg(long, value_enum, default_value_t = MethodArg::Mss)]
+    method: MethodArg,
+    /// Stop at this mismatch D
+    #[arg(long, value_name = "D", value_parser = input::not_negative)]
+    mismatch: Option<f64>,
+    /// Stop at the first checkpoint after this many seconds, with the spheres found so far
+    #[arg(long, value_name = "SECONDS", value_parser = input::not_negative)]
+    deadline: Option<f64>,
+    /// Least radius, in your length unit
+    #[arg(long, value_name = "LENGTH", value_parser = input::not_negative)]
+    min_radius: Option<f64>,
+    /// Least distance between centres, in cells
+    #[arg(long, value_name = "CELLS", default_value_t = 0.0, value_parser = input::not_negative)]
+    min_distance: f64,
+    /// Added to every radius, in cells
+    #[arg(long, value_name = "CELLS", default_value_t = 0.0, allow_hyphen_values = true)]
+    radius_offset: f64,
+    /// Let no sphere reach beyond the true surface
+    #[arg(long)]
+    confine: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum MethodArg {
+    /// Local maxima of the distance transform (paper of Buchele, Pöschel and Müller)
+    Mss,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Wanted {
+    Full,
+    Overlap,
+    None,
+}
+
+/// The frame of spheres in a file.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+pub enum Frame {
+    /// The input's coordinates
+    Input,
+    /// Origin at the centre of mass, principal axes
+    Body,
+}
+
+pub fn run(args: &Args) -> Done {
+    let start = Instant::now();
+    let output = match (args.output.as_deref(), args.json) {
+        (Some("-"), true) => {
+            return Err(Fail::Usage("--json and -o - both want stdout".into()));
+        }
+        (Some(path), _) => Some(path),
+        (None, true) => None,
+        (None, false) => Some("-"),
+    };
+    let options = args.generate_options();
+    let bar = Bar::new("clump", args.quiet);
+    let mut run = Run::new(args.threads).about("")?.with_seed(args.seed);
+    if let Some(seconds) = args.making.deadline {
+        run = run.with_deadline(seconds);
+    }
+    let run = bar.attach(run);
+    let shape = args.reading.shape(&args.input, &run)?;
+    let solid = args.fineness.solid(&shape, &args.reading, &run).about(&args.input)?;
+    let clump = generate(&solid, &options, &run).about(&args.input)?;
+    drop(bar);
+
+    let moments = solid.moments();
+    let principal = PrincipalFrame::of(&moments.inertia);
+    let spheres = match args.frame {
+        Frame::Input => clump.spheres.clone(),
+        Frame::Body => to_body(&clump.spheres, &moments, &principal),
+    };
+    let figures = figures(args, &shape, &solid, &clump, &principal, start);
+    if let Some(path) = output {
+        let format = args.format.unwrap_or_else(|| ClumpFormat::of_name(path));
+        write::to(path, |out| write::clump(out, format, &spheres, &figures))?;
+    }
+    if args.json {
+        let format = ClumpFormat::Json;
+        return write::to_stdout(|out| match output {
+            None => write::clump(out, format, &spheres, &figures),
+            Some(_) => writeln!(out, "{figures}"),
+        });
+    }
+    match output {
+        Some(path) if path != "-" && !args.quiet => summary(path, &figures),
+        _ => Ok(()),
+    }
+}
+
+impl Args {
+    fn generate_options(&self) -> GenerateOptions {
+        let m = &self.making;
+        let unbounded = m.mismatch.is_some() || m.min_radius.is_some();
+        GenerateOptions {
+            method: match m.method {
+                MethodArg::Mss => Method::Mss,
+            },
+            spheres: self.spheres.unwrap_or(if unbounded { 0 } else { 50 }),
+            mismatch: m.mismatch.unwrap_or(0.0),
+            min_radius: m.min_radius.unwrap_or(0.0),
+            min_distance: m.min_distance,
+            radius_offset: m.radius_offset,
+            confine: m.confine,
+            quality: (self.quality != Wanted::None).then(|| QualityOptions {
+                surface: self.quality == Wanted::Full,
+                plane_tolerances: self.plane_tolerance.clone(),
+                ..QualityOptions::default()
+            }),
+        }
+    }
+}
+
+/// Spheres of the input frame in the body frame.
+fn to_body(spheres: &[Sphere], moments: &Moments, principal: &PrincipalFrame) -> Vec<Sphere> {
+    let turn = principal.axes.transpose();
+    spheres.iter().map(|s| Sphere::new(turn * (s.center - moments.centroid), s.radius)).collect()
+}
+
+/// The keys of `--json`. What was not measured is null.
+fn figures(
+    args: &Args,
+    shape: &Shape,
+    solid: &Solid,
+    clump: &Clump,
+    principal: &PrincipalFrame,
+    start: Instant,
+) -> Value {
+    let q = clump.quality.as_ref();
+    let surface = q.filter(|_| args.quality == Wanted::Full);
+    let moments = solid.moments();
+    let c = &clump.counters;
+    let [read, check, grid, generate, measure, integrate] = c.seconds;
+    let notes: Vec<&String> = shape.report.notes.iter().chain(solid.notes()).collect();
+    let mut v = json!({
+        "input": args.input,
+        "n": clump.spheres.len(),
+        "D": q.map(|q| q.mismatch),
+        "eta": q.map(|q| q.eta),
+        "iou": q.map(|q| q.iou),
+        "coverage": q.map(|q| q.coverage),
+        "overshoot": q.map(|q| q.overshoot),
+        "error_bound": q.map(|q| q.error_bound),
+        "union_volume": q.map(|q| q.union_volume),
+        "volume_error": q.map(|q| q.volume_error),
+        "centroid_error": q.map(|q| q.centroid_error),
+        "moment_errors": q.map(|q| q.moment_errors),
+        "protrusion": surface.map(|q| q.protrusion),
+        "rms_distance": surface.map(|q| q.rms_distance),
+        "hausdorff": surface.map(|q| q.hausdorff),
+        "roughness": surface.map(|q| q.roughness),
+        "never_exposed": surface.map(|q| q.never_exposed),
+        "plane_contacts": surface.map(|q| q.plane_contacts.clone()),
+        "stopped": clump.stopped.name(),
+        "note": clump.note,
+        "notes": notes,
+        "volume": moments.volume,
+        "equivalent_diameter": equivalent_diameter(moments.volume),
+        "cells": solid.grid().dims,
+        "frame": match args.frame { Frame::Input => "input", Frame::Body => "body" },
+        "position": moments.centroid.as_slice(),
+        "quaternion": principal.quaternion,
+        "stages": {
+            "read": read, "check": check, "solid": grid, "generate": generate,
+            "measure": measure, "moments": integrate,
+        },
+        "peak_bytes": c.peak_bytes,
+    });
+    if let (Some(density), Some(map)) = (args.density, v.as_object_mut()) {
+        let (centre, inertia) = match args.frame {
+            Frame::Input => (
+                [moments.centroid.x, moments.centroid.y, moments.centroid.z],
+                moments.inertia.to_array(),
+            ),
+            Frame::Body => {
+                let [a, b, c] = principal.moments;
+                ([0.0; 3], [a, b, c, 0.0, 0.0, 0.0])
+            }
+        };
+        map.insert("density".into(), density.into());
+        map.insert("mass".into(), (density * moments.volume).into());
+        map.insert("centre".into(), json!(centre));
+        map.insert("inertia".into(), json!(inertia.map(|i| density * i)));
+    }
+    if let Some(map) = v.as_object_mut() {
+        map.insert("seconds".into(), start.elapsed().as_secs_f64().into());
+    }
+    v
+}
+
+/// Diameter of the sphere of this volume.
+pub fn equivalent_diameter(volume: f64) -> f64 {
+    (6.0 * volume.max(0.0) / std::f64::consts::PI).cbrt()
+}
+
+/// What a person wants to know after a clump was written.
+fn summary(path: &str, figures: &Value) -> Done {
+    let number = |key: &str| figures.get(key).and_then(Value::as_f64);
+    let text = |key: &str| figures.get(key).and_then(Value::as_str).unwrap_or("").to_string();
+    write::to_stdout(|out| {
+        write!(out, "{path}: {} spheres", figures["n"])?;
+        if let Some(d) = number("D") {
+            write!(out, ", D {d:.4}")?;
+        }
+        if let (Some(c), Some(o)) = (number("coverage"), number("overshoot")) {
+            write!(out, ", coverage {:.2} %, overshoot {:.2} %", 100.0 * c, 100.0 * o)?;
+        }
+        if let (Some(p), Some(d)) = (number("protrusion"), number("equivalent_diameter")) {
+            write!(out, ", protrusion {p:.3e} ({:.2} % of d_eq)", 100.0 * p / d)?;
+        }
+        if let Some(mass) = number("mass") {
+            write!(out, ", mass {mass:.6e}")?;
+        }
+        let seconds = number("seconds").unwrap_or(0.0);
+        writeln!(out, ", {:.0} ms, stopped by {}", 1e3 * seconds, text("stopped"))?;
+        if !text("note").is_empty() {
+            writeln!(out, "note: {}", text("note"))?;
+        }
+        for note in figures["notes"].as_array().into_iter().flatten() {
+            writeln!(out, "note: {}", note.as_str().unwrap_or(""))?;
+        }
+        Ok(())
+    })
+}

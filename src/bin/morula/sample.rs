@@ -1,0 +1,80 @@
+//! `morula sample`: the built-in analytic particles as meshes.
+
+use crate::fail::{About, Done, Fail};
+use crate::{input, write};
+use morula::shape::Primitive;
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// Name of the particle (see --list)
+    #[arg(required_unless_present = "list")]
+    name: Option<String>,
+    /// Set a parameter; may be given more than once
+    #[arg(long = "set", value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    set: Vec<String>,
+    /// Which stone: shorthand for --set seed=N
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Edges around the body
+    #[arg(long, default_value_t = 96)]
+    segments: usize,
+    /// File to write: .stl, .ply, .off or .obj
+    #[arg(short, long, value_name = "FILE", required_unless_present = "list")]
+    output: Option<String>,
+    /// List the particles with their parameters and defaults
+    #[arg(long)]
+    list: bool,
+    /// Print nothing
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub fn run(args: &Args) -> Done {
+    if args.list {
+        return list();
+    }
+    let (Some(name), Some(output)) = (&args.name, &args.output) else {
+        return Err(Fail::Usage("a particle and a file are needed".into()));
+    };
+    let mut particle = Primitive::from_name(name).about("")?;
+    for pair in &args.set {
+        input::set(&mut particle, pair)?;
+    }
+    if let Some(seed) = args.seed {
+        // Through text, so that seeds above 2^53 are refused rather than rounded.
+        if seed > 1 << 53 {
+            return Err(Fail::Usage(format!("--seed is {seed}, more than 2^53")));
+        }
+        particle.set("seed", seed as f64).about(name)?;
+    }
+    let (vertices, faces) = particle.mesh(args.segments).about(name)?;
+    write::mesh::write(output, &vertices, &faces)?;
+    if args.quiet {
+        return Ok(());
+    }
+    write::to_stdout(|out| {
+        write!(out, "{output}: {name}, {} vertices, {} faces", vertices.len(), faces.len())?;
+        for (key, value) in particle.parameters() {
+            write!(out, ", {key} {value:?}")?;
+        }
+        if let Some(m) = particle.moments() {
+            write!(out, "; volume of the ideal body {:?}", m.volume)?;
+        }
+        writeln!(out)
+    })
+}
+
+fn list() -> Done {
+    write::to_stdout(|out| {
+        for name in Primitive::NAMES {
+            write!(out, "{name}")?;
+            if let Ok(particle) = Primitive::from_name(name) {
+                for (key, value) in particle.parameters() {
+                    write!(out, " {key}={value:?}")?;
+                }
+            }
+            writeln!(out)?;
+        }
+        Ok(())
+    })
+}

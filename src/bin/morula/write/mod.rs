@@ -1,0 +1,71 @@
+//! What the program writes: clumps and meshes, one file per format.
+
+mod clump_csv;
+mod clump_json;
+mod clump_ply;
+mod clump_vtp;
+pub mod mesh;
+
+use crate::fail::{Done, Fail};
+use clap::ValueEnum;
+use morula::Sphere;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+/// A file format for clumps.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum ClumpFormat {
+    /// One sphere a line under the header x,y,z,r
+    Csv,
+    /// One object with the spheres as [x, y, z, r] and the figures of the clump
+    Json,
+    /// VTK XML PolyData: points with a radius
+    Vtp,
+    /// A mesh in which each sphere is an icosphere of 1280 faces (not the union)
+    Ply,
+}
+
+impl ClumpFormat {
+    /// The format that a file name stands for; CSV when it says nothing.
+    pub fn of_name(name: &str) -> ClumpFormat {
+        let extension = Path::new(name).extension().and_then(|e| e.to_str()).unwrap_or("");
+        match extension.to_ascii_lowercase().as_str() {
+            "json" => ClumpFormat::Json,
+            "vtp" => ClumpFormat::Vtp,
+            "ply" => ClumpFormat::Ply,
+            _ => ClumpFormat::Csv,
+        }
+    }
+}
+
+/// Writes a clump; `figures` go into formats that have room for them.
+pub fn clump(
+    out: &mut dyn Write,
+    format: ClumpFormat,
+    spheres: &[Sphere],
+    figures: &serde_json::Value,
+) -> std::io::Result<()> {
+    match format {
+        ClumpFormat::Csv => clump_csv::write(out, spheres),
+        ClumpFormat::Json => clump_json::write(out, spheres, figures),
+        ClumpFormat::Vtp => clump_vtp::write(out, spheres),
+        ClumpFormat::Ply => clump_ply::write(out, spheres),
+    }
+}
+
+/// Writes to a file, or to stdout when `path` is `-`.
+pub fn to(path: &str, body: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Done {
+    if path == "-" {
+        return to_stdout(body);
+    }
+    let path = Path::new(path);
+    let file = std::fs::File::create(path).map_err(|e| Fail::file(path, e))?;
+    let mut out = BufWriter::new(file);
+    body(&mut out).and_then(|()| out.flush()).map_err(|e| Fail::file(path, e))
+}
+
+/// Writes to stdout.
+pub fn to_stdout(body: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Done {
+    let mut out = BufWriter::new(std::io::stdout().lock());
+    body(&mut out).and_then(|()| out.flush()).map_err(Fail::stdout)
+}
