@@ -40,12 +40,6 @@ pub struct Args {
     /// Count the spheres that one plane touches within this length; may be given more than once
     #[arg(long, value_name = "LENGTH", value_parser = input::positive)]
     plane_tolerance: Vec<f64>,
-    #[command(flatten)]
-    making: Making,
-    #[command(flatten)]
-    fineness: Fineness,
-    #[command(flatten)]
-    reading: Reading,
     /// Threads; 0: all cores. The result does not depend on it
     #[arg(long, default_value_t = 0)]
     threads: usize,
@@ -55,6 +49,12 @@ pub struct Args {
     /// No progress bar, no summary
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    making: Making,
+    #[command(flatten)]
+    fineness: Fineness,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 #[derive(clap::Args)]

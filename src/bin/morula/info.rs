@@ -21,14 +21,14 @@ pub struct Args {
     /// Density, mass per cubed length unit [default: 1]
     #[arg(long, default_value_t = 1.0, value_parser = crate::input::positive)]
     density: f64,
-    #[command(flatten)]
-    reading: Reading,
     /// Threads; 0: all cores
     #[arg(long, default_value_t = 0)]
     threads: usize,
     /// No progress bar
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    reading: Reading,
 }
 
 pub fn run(args: &Args) -> Done {
