@@ -1,10 +1,20 @@
 //! File formats. The format is told by content, then by name; what a header
 //! declares is checked against what is really there before anything is reserved.
 
+mod detect;
+mod obj;
+mod off;
+mod ply;
+mod polygon;
+mod stl;
+mod text;
+
 use super::voxels::Threshold;
 use super::{ImportOptions, Layout, Shape};
-use crate::error::{Error, Result};
-use crate::run::Run;
+use crate::error::{Error, Result, reserve};
+use crate::run::{Run, Stage};
+use std::io::Read;
+use std::path::Path;
 
 /// A file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,16 +121,80 @@ pub enum RawValues {
     F32(Vec<f32>),
 }
 
+/// What a file holds.
+enum Raw {
+    Mesh(RawMesh),
+    Voxels(RawVoxels),
+}
+
 impl Shape {
     /// A shape from the bytes of a file; `name` helps where content does not tell.
     pub fn from_bytes(bytes: &[u8], name: &str, options: &FileOptions, run: &Run) -> Result<Shape> {
-        let _ = (bytes, name, options, run);
-        Err(Error::Internal("files are not read yet".into()))
+        let raw = run.time(Stage::Read, || read(bytes, name, options))?;
+        match raw {
+            Raw::Mesh(m) => Shape::from_mesh(&m.vertices, &m.faces, &options.import, run),
+            Raw::Voxels(v) => from_voxels(v, options, run),
+        }
     }
 
     /// A shape from a file.
-    pub fn from_file(path: &std::path::Path, options: &FileOptions, run: &Run) -> Result<Shape> {
-        let _ = (path, options, run);
-        Err(Error::Internal("files are not read yet".into()))
+    pub fn from_file(path: &Path, options: &FileOptions, run: &Run) -> Result<Shape> {
+        let bytes = run.time(Stage::Read, || load(path, options.import.memory_limit))?;
+        let name = path.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
+        Shape::from_bytes(&bytes, &name, options, run)
     }
+}
+
+fn read(bytes: &[u8], name: &str, options: &FileOptions) -> Result<Raw> {
+    let format = match options.format {
+        Some(format) => format,
+        None => detect::format(bytes, name, options.raw.is_some())?,
+    };
+    if bytes.is_empty() {
+        return Err(detect::empty(name));
+    }
+    match format {
+        Format::Stl => stl::read(bytes).map(Raw::Mesh),
+        Format::Obj => obj::read(bytes).map(Raw::Mesh),
+        Format::Ply => ply::read(bytes).map(Raw::Mesh),
+        Format::Off => off::read(bytes).map(Raw::Mesh),
+        Format::Npy | Format::Tiff | Format::Raw => {
+            read_voxels(bytes, format, options).map(Raw::Voxels)
+        }
+    }
+}
+
+/// The voxels of a file.
+fn read_voxels(bytes: &[u8], format: Format, options: &FileOptions) -> Result<RawVoxels> {
+    let _ = (bytes, options);
+    Err(Error::Unsupported(format!("{format:?} files are not read yet")))
+}
+
+/// The shape of the voxels of a file.
+fn from_voxels(voxels: RawVoxels, options: &FileOptions, run: &Run) -> Result<Shape> {
+    let _ = (voxels, options, run);
+    Err(Error::Internal("voxel files are not read yet".into()))
+}
+
+/// The bytes of a file no larger than `limit`.
+fn load(path: &Path, limit: u64) -> Result<Vec<u8>> {
+    let fail = |e: std::io::Error| Error::Io(format!("{} cannot be read: {e}", path.display()));
+    let file = std::fs::File::open(path).map_err(fail)?;
+    let size = file.metadata().map_err(fail)?.len();
+    let refuse = |size: String| {
+        Err(Error::MemoryLimit(format!(
+            "{} has {size} bytes, the limit is {limit}",
+            path.display()
+        )))
+    };
+    if size > limit {
+        return refuse(size.to_string());
+    }
+    let mut bytes = reserve("the file", usize::try_from(size).unwrap_or(usize::MAX))?;
+    // What is not a plain file may hold more than it says.
+    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(fail)?;
+    if bytes.len() as u64 > limit {
+        return refuse(format!("more than {limit}"));
+    }
+    Ok(bytes)
 }

@@ -1,0 +1,57 @@
+//! What the readers of text formats share.
+
+use crate::error::{Error, Result};
+
+/// `bytes` without the mark of UTF-8.
+pub fn without_bom(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
+}
+
+/// The name of the encoding when `bytes` is UTF-16: by its mark, or by zeros
+/// in every other byte of its beginning.
+pub fn utf16(bytes: &[u8]) -> Option<&'static str> {
+    let head = &bytes[..bytes.len().min(64) & !1];
+    let zeros = |odd: usize| {
+        head.len() >= 8 && head.chunks_exact(2).all(|p| p[odd] == 0 && p[1 - odd] != 0)
+    };
+    if bytes.starts_with(b"\xfe\xff") || zeros(0) {
+        Some("UTF-16 (big-endian)")
+    } else if bytes.starts_with(b"\xff\xfe") || zeros(1) {
+        Some("UTF-16 (little-endian)")
+    } else {
+        None
+    }
+}
+
+/// Lines with their numbers from 1; the end of line may be LF, CRLF or CR.
+pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+    // A CR before an LF ends no line of its own.
+    let cr_only = !bytes.contains(&b'\n');
+    let end = if cr_only { b'\r' } else { b'\n' };
+    bytes.split(move |&b| b == end).enumerate().map(|(i, l)| (i + 1, l.trim_ascii()))
+}
+
+/// The words of a line.
+pub fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
+    line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty())
+}
+
+/// A number of a file, or an error that names line and word.
+pub fn number<T: std::str::FromStr>(word: Option<&[u8]>, line: usize, what: &str) -> Result<T> {
+    let word = word.ok_or_else(|| fault(line, &format!("{what} is missing")))?;
+    std::str::from_utf8(word)
+        .ok()
+        .and_then(|s| s.parse().ok())
+        .ok_or_else(|| fault(line, &format!("{what} is \"{}\", not a number", short(word))))
+}
+
+/// The beginning of a word, printable.
+pub fn short(word: &[u8]) -> String {
+    let cut = word.len().min(40);
+    format!("{}{}", word[..cut].escape_ascii(), if word.len() > cut { "…" } else { "" })
+}
+
+/// A fault of a line.
+pub fn fault(line: usize, what: &str) -> Error {
+    Error::Format(format!("line {line}: {what}"))
+}
