@@ -1,5 +1,5 @@
 use super::Vec3;
-use nalgebra::{Matrix3, SymmetricEigen};
+use nalgebra::Matrix3;
 
 /// A symmetric inertia tensor, order `xx, yy, zz, xy, xz, yz`; the products
 /// carry their sign: `xy = −∫ x y dm`, so these are the tensor's own entries.
@@ -70,41 +70,4 @@ pub struct Moments {
     pub inertia: Inertia,
     /// Bound on the relative error of the volume: 0 for exact integrals (up to rounding).
     pub relative_error: f64,
-}
-
-/// Principal moments and axes of an inertia tensor.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PrincipalFrame {
-    /// Principal moments, ascending.
-    pub moments: [f64; 3],
-    /// Columns are the body axes in the input frame; right-handed.
-    pub axes: Matrix3<f64>,
-    /// The same rotation, body to input, as `w, x, y, z` with w ≥ 0.
-    pub quaternion: [f64; 4],
-}
-
-impl PrincipalFrame {
-    /// The principal frame of `inertia`. (First form; degenerate axes and signs
-    /// follow in this file.)
-    pub fn of(inertia: &Inertia) -> Self {
-        let e = SymmetricEigen::new(inertia.matrix());
-        let mut order = [0, 1, 2];
-        order.sort_by(|&a, &b| e.eigenvalues[a].total_cmp(&e.eigenvalues[b]));
-        let mut axes = Matrix3::from_columns(&[
-            e.eigenvectors.column(order[0]).into_owned(),
-            e.eigenvectors.column(order[1]).into_owned(),
-            e.eigenvectors.column(order[2]).into_owned(),
-        ]);
-        if axes.determinant() < 0.0 {
-            let flipped = -axes.column(2).into_owned();
-            axes.set_column(2, &flipped);
-        }
-        let q = nalgebra::UnitQuaternion::from_matrix(&axes);
-        let s = if q.w < 0.0 { -1.0 } else { 1.0 };
-        PrincipalFrame {
-            moments: order.map(|i| e.eigenvalues[i]),
-            axes,
-            quaternion: [q.w * s, q.i * s, q.j * s, q.k * s],
-        }
-    }
 }

@@ -3,10 +3,12 @@
 
 mod frame;
 mod inertia;
+mod principal;
 mod sphere;
 
 pub use frame::UnitFrame;
-pub use inertia::{Inertia, Moments, PrincipalFrame};
+pub use inertia::{Inertia, Moments};
+pub use principal::PrincipalFrame;
 pub use sphere::Sphere;
 
 /// A point or vector in three dimensions.
