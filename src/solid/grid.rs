@@ -1,10 +1,12 @@
 //! The grid of a solid and how fine it is.
 
-use super::{Solid, SolidOptions};
-use crate::error::{Error, Result};
-use crate::math::Vec3;
-use crate::run::Run;
-use crate::shape::Shape;
+use super::nearest::Surface;
+use super::{Solid, SolidOptions, coverage, moments};
+use crate::error::{Error, Result, filled};
+use crate::math::{Moments, Vec3};
+use crate::run::{Run, Stage};
+use crate::shape::{Body, Mesh, Shape, Voxels};
+use std::sync::OnceLock;
 
 /// How fine a grid is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,8 +84,179 @@ impl Grid {
     }
 }
 
+/// Bytes that the arrays of the whole pipeline may hold per cell at once: inside 1, distance 4,
+/// nearest triangle or transform 8, and the generator's own distances and marks 11.
+pub const BYTES_PER_CELL: u64 = 24;
+/// Most cells of a grid.
+const MOST_CELLS: u64 = 1 << 31;
+/// Most cells that a grid made finer for a thin shape may have.
+const MOST_REFINED: f64 = (4u64 << 20) as f64;
+/// Cells wanted across the shortest edge of the box.
+const ACROSS_BOX: f64 = 4.0;
+/// Cells wanted across the mean thickness 2V/A (the thickness of a plate; half the
+/// diameter of a rod; a third of a ball's).
+const ACROSS_THICKNESS: f64 = 1.5;
+
 /// Makes the solid: grid, inside, surface, moments.
 pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<Solid> {
-    let _ = (shape, options, run);
-    Err(Error::Internal("solids are not built yet".into()))
+    if options.padding < 2 {
+        return Err(Error::InvalidArgument(format!(
+            "padding is {} cells, less than 2",
+            options.padding
+        )));
+    }
+    let moments = run.time(Stage::Moments, || moments::moments(&shape.body, run))?;
+    run.time(Stage::Solid, || {
+        let mut notes = Vec::new();
+        if moments.relative_error > 0.0 {
+            notes.push(format!(
+                "the surface is open or crosses itself: moments by columns, within {:.2e}",
+                moments.relative_error
+            ));
+        }
+        let (grid, inside) = match &shape.body {
+            Body::Voxels(v) => of_voxels(v, options)?,
+            Body::Mesh(m) => of_mesh(shape, m, &moments, options, &mut notes, run)?,
+        };
+        let cells = grid.len() as u64;
+        run.count(|c| {
+            c.cells += cells;
+            c.peak_bytes = c.peak_bytes.max(cells);
+        });
+        let surface = Surface::new(&shape.body)?;
+        Ok(Solid {
+            body: shape.body.clone(),
+            frame: shape.frame,
+            grid,
+            inside,
+            distance: OnceLock::new(),
+            surface,
+            moments,
+            notes,
+            memory_limit: options.memory_limit,
+        })
+    })
+}
+
+/// Refuses a grid that is too large, before anything is reserved for it.
+fn check(dims: [f64; 3], limit: u64) -> Result<()> {
+    let cells = dims[0] * dims[1] * dims[2];
+    let bytes = cells * BYTES_PER_CELL as f64;
+    if bytes > limit as f64 {
+        return Err(Error::MemoryLimit(format!(
+            "a grid of {} × {} × {} = {cells:.0} cells may take {bytes:.0} bytes \
+             ({BYTES_PER_CELL} a cell), more than the limit of {limit}",
+            dims[0], dims[1], dims[2]
+        )));
+    }
+    if cells > MOST_CELLS as f64 {
+        return Err(Error::TooLarge(format!(
+            "a grid of {} × {} × {} cells has more than {MOST_CELLS}",
+            dims[0], dims[1], dims[2]
+        )));
+    }
+    Ok(())
+}
+
+/// The voxels' own cells, with padding.
+fn of_voxels(v: &Voxels, options: &SolidOptions) -> Result<(Grid, Vec<u8>)> {
+    let p = options.padding;
+    check(v.dims.map(|n| n as f64 + 2.0 * p as f64), options.memory_limit)?;
+    let dims = v.dims.map(|n| n + 2 * p);
+    let grid = Grid { dims, spacing: v.spacing, origin: -v.spacing * p as f64 };
+    let mut inside = filled("the inside of the grid", grid.len(), 0u8)?;
+    for (row, cells) in v.cells.chunks(v.dims[0].max(1)).enumerate() {
+        let (j, k) = (row % v.dims[1].max(1), row / v.dims[1].max(1));
+        let at = grid.index(p, j + p, k + p);
+        if let Some(to) = inside.get_mut(at..at + cells.len()) {
+            to.copy_from_slice(cells);
+        }
+    }
+    Ok((grid, inside))
+}
+
+/// Cubic cells about the middle of the box, as fine as asked for, or finer where the shape is thin.
+fn of_mesh(
+    shape: &Shape,
+    mesh: &Mesh,
+    moments: &Moments,
+    options: &SolidOptions,
+    notes: &mut Vec<String>,
+    run: &Run,
+) -> Result<(Grid, Vec<u8>)> {
+    let Some((lo, hi)) = moments::bounds(mesh) else {
+        return Err(Error::Empty("the mesh has no face".into()));
+    };
+    let edges = hi - lo;
+    let count = |n: u32| match n {
+        0 => Err(Error::InvalidArgument("the number of cells is 0".into())),
+        n => Ok(f64::from(n)),
+    };
+    let (asked, may_refine) = match options.resolution {
+        Resolution::CellsLongest(n) => (edges.max() / count(n)?, true),
+        Resolution::CellsShortest(n) => (edges.min() / count(n)?, true),
+        Resolution::CellsDiameter(n) => {
+            ((6.0 / std::f64::consts::PI * moments.volume).cbrt() / count(n)?, true)
+        }
+        Resolution::CellSize(size) => {
+            if !(size.is_finite() && size > 0.0) {
+                return Err(Error::InvalidArgument(format!("the cell size is {size}")));
+            }
+            let least = shape.frame.scale * 1e-10;
+            if size < least {
+                return Err(Error::MemoryLimit(format!(
+                    "cells of {size} are too small for a shape of size {}",
+                    shape.frame.scale
+                )));
+            }
+            (size / shape.frame.scale, false)
+        }
+    };
+    let dims_of = |h: f64| {
+        [0, 1, 2].map(|a| (edges[a] / h - 1e-9).ceil().max(1.0) + 2.0 * options.padding as f64)
+    };
+    check(dims_of(asked), options.memory_limit)?;
+
+    // Finer for a thin shape, as far as that stays cheap.
+    let thickness = 2.0 * moments.volume / moments::area(mesh);
+    let wanted = (edges.min() / ACROSS_BOX).min(thickness / ACROSS_THICKNESS);
+    let most = MOST_REFINED.min((options.memory_limit / BYTES_PER_CELL) as f64);
+    let fits = |h: f64| dims_of(h).iter().product::<f64>() <= most;
+    let mut h = asked;
+    if may_refine && wanted < asked {
+        if fits(wanted) {
+            h = wanted;
+        } else if fits(asked) {
+            // The finest of 64 steps between the two that fits.
+            let step = |i: u32| asked * (wanted / asked).powf(f64::from(i) / 64.0);
+            h = (0..64).rev().map(step).find(|&h| fits(h)).unwrap_or(asked);
+        }
+    }
+    let scale = shape.frame.scale;
+    if h < asked {
+        notes.push(format!(
+            "the shape is thin (about {:.3e}): cells of {:.3e} instead of {:.3e}",
+            thickness * scale,
+            h * scale,
+            asked * scale
+        ));
+    }
+    if wanted < h * (1.0 - 1e-9) {
+        notes.push(format!(
+            "the shape is thin: about {:.1} cells lie across its thickness of {:.3e}",
+            thickness / h,
+            thickness * scale
+        ));
+    }
+    let dims = dims_of(h).map(|n| n as usize);
+    let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
+    let grid = Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half };
+    let inside = coverage::inside(&shape.body, &grid, options.padding, run)?;
+    if !inside.contains(&1) {
+        return Err(Error::Empty(format!(
+            "no cell of size {:e} is more than half covered: the shape is too thin for them",
+            h * scale
+        )));
+    }
+    Ok((grid, inside))
 }

@@ -6,6 +6,8 @@ mod cells;
 mod open;
 mod raster;
 
+pub(super) use raster::closed;
+
 use crate::error::{Error, Result, filled, reserve};
 use crate::math::Vec3;
 use crate::run::Pool;
@@ -110,7 +112,7 @@ impl Columns {
         let total = check(&lattice)?;
         let bands = match body {
             Body::Voxels(voxels) => cells::bands(voxels, &lattice, pool)?,
-            Body::Mesh(mesh) if mesh.clean || raster::closed(mesh)? => {
+            Body::Mesh(mesh) if mesh.clean || closed(mesh)? => {
                 raster::bands(mesh, &lattice, pool)?
             }
             Body::Mesh(mesh) => open::bands(mesh, &lattice, pool)?,

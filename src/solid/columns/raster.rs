@@ -28,7 +28,7 @@ const MOST_CROSSINGS: usize = 1 << 26;
 
 /// Whether every edge is run through as often one way as the other. The winding number is then
 /// an integer, and the signed crossings of a column give it.
-pub(super) fn closed(mesh: &Mesh) -> Result<bool> {
+pub(in crate::solid) fn closed(mesh: &Mesh) -> Result<bool> {
     let mut edges: Vec<(u32, u32, bool)> = reserve("edges", mesh.faces.len().saturating_mul(3))?;
     for f in &mesh.faces {
         for (a, b) in [(f[0], f[1]), (f[1], f[2]), (f[2], f[0])] {
