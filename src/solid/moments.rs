@@ -250,10 +250,5 @@ fn of_cells(v: &Voxels) -> Result<Moments> {
         m[k] = (central + own) * v.spacing[i] * v.spacing[j] * cell;
     }
     let centroid = Vec3::from_fn(|a, _| (first[a] as f64 / n as f64 + 0.5) * v.spacing[a]);
-    Ok(Moments {
-        volume,
-        centroid,
-        inertia: Inertia::from_second_moments(m),
-        relative_error: 0.0,
-    })
+    Ok(Moments { volume, centroid, inertia: Inertia::from_second_moments(m), relative_error: 0.0 })
 }

@@ -60,9 +60,8 @@ impl Winding {
             .map(|i| {
                 let [a, b, c] = mesh.corners(i);
                 let q = ((a + b + c) / 3.0 - lo) * scale;
-                let code = (0..3).fold(0, |m, k| {
-                    m | spread(q[k].clamp(0.0, cells - 1.0) as u64) << k
-                });
+                let code =
+                    (0..3).fold(0, |m, k| m | spread(q[k].clamp(0.0, cells - 1.0) as u64) << k);
                 (code, i as u32)
             })
             .collect();

@@ -112,9 +112,7 @@ impl Columns {
         let total = check(&lattice)?;
         let bands = match body {
             Body::Voxels(voxels) => cells::bands(voxels, &lattice, pool)?,
-            Body::Mesh(mesh) if mesh.clean || closed(mesh)? => {
-                raster::bands(mesh, &lattice, pool)?
-            }
+            Body::Mesh(mesh) if mesh.clean || closed(mesh)? => raster::bands(mesh, &lattice, pool)?,
             Body::Mesh(mesh) => open::bands(mesh, &lattice, pool)?,
         };
         let mut starts = reserve("columns", total + 1)?;
