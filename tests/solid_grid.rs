@@ -1,5 +1,7 @@
 //! The grid of a solid: where it lies, which cells are in, what it may cost.
 
+#![allow(clippy::unwrap_used, clippy::expect_used)]
+
 use morula::math::Vec3;
 use morula::shape::{ImportOptions, Layout, Primitive};
 use morula::solid::{Resolution, SolidOptions};
