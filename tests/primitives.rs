@@ -165,8 +165,11 @@ fn moments_converge_at_second_order() {
             .map(f64::abs)
         });
         println!("{p:?}: {:.1e} then {:.1e}", errors[0][0], errors[1][0]);
+        // Exponents above 2 have cusps, where the curvature has no bound.
+        let cusps = matches!(p, Primitive::Superellipsoid { exponents: [e, _], .. } if e > 2.0);
+        let rate = if cusps { 0.4 } else { 0.3 };
         for (coarse, fine) in errors[0].iter().zip(errors[1]) {
-            assert!(fine < 1e-12 || fine < 0.35 * coarse, "{p:?}: {coarse:e} then {fine:e}");
+            assert!(fine < 1e-12 || fine < rate * coarse, "{p:?}: {coarse:e} then {fine:e}");
             assert!(fine < 0.01, "{p:?}: {fine:e}");
         }
     }
@@ -252,6 +255,9 @@ fn stones_differ_by_seed_and_only_by_seed() {
     assert_eq!(stone(7, 0.5), stone(7, 0.5));
     assert_ne!(stone(7, 0.5), stone(8, 0.5));
     assert_ne!(stone(7, 0.5), stone(7, 0.6));
+    // +, −, ×, ÷ and √ only, so these are the bytes on every platform.
+    let hash = stone(7, 0.5).0.iter().flatten().fold(0u64, |h, v| h.rotate_left(5) ^ v.to_bits());
+    assert_eq!(hash, 0x4b20_cc0c_787c_8412);
     for seed in 0..20 {
         for roughness in [0.0, 0.5, 1.0] {
             let mesh = stone(seed, roughness);

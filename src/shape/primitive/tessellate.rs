@@ -212,9 +212,10 @@ fn ball(n: usize, axes: [f64; 3]) -> Mesh {
 }
 
 fn torus(n: usize, major: f64, minor: f64) -> Mesh {
-    // Rings around the tube: a multiple of 4, about as far apart as the vertices
-    // of the outer ring.
-    let around = (n as f64 * minor / (major + minor) / 0.75f64.sqrt()).round().max(2.0) as usize;
+    // Rings in a quarter of the tube: as far apart as the vertices of the outer ring,
+    // but enough to keep a thin tube round.
+    let equilateral = n as f64 * minor / (major + minor) / 0.75f64.sqrt();
+    let around = (equilateral.round() as usize).max(n.div_ceil(4)).max(2);
     let mut rows = Rows::default();
     let mut first = None;
     for k in 0..4 * around {
