@@ -10,6 +10,7 @@ mod info;
 mod input;
 mod progress;
 mod sample;
+mod view;
 mod write;
 
 use clap::{Parser, Subcommand};
@@ -28,11 +29,13 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     /// Make a clump of a shape and write its spheres
-    Clump(clump::Args),
+    Clump(Box<clump::Args>),
     /// Say what a shape is: report, moments, principal frame, labels
-    Info(info::Args),
+    Info(Box<info::Args>),
     /// Write a built-in analytic particle as a mesh
     Sample(sample::Args),
+    /// Draw a clump beside its target
+    View(Box<view::Args>),
 }
 
 fn main() -> ExitCode {
@@ -44,6 +47,7 @@ fn main() -> ExitCode {
         Command::Clump(args) => clump::run(args),
         Command::Info(args) => info::run(args),
         Command::Sample(args) => sample::run(args),
+        Command::View(args) => view::run(args),
     };
     match done {
         Ok(()) | Err(Fail::Pipe) => ExitCode::SUCCESS,

@@ -1,0 +1,275 @@
+//! `morula view`: a picture of a clump beside its target. Left the target, in
+//! the middle the clump, coloured by how far its surface lies from the
+//! target's, right a section through both.
+
+mod buffer;
+mod camera;
+mod canvas;
+mod colour;
+mod font;
+mod read;
+mod section;
+mod shade;
+mod surface;
+
+use crate::clump::{Frame, equivalent_diameter};
+use crate::fail::{About, Done};
+use crate::input::{Fineness, Reading};
+use crate::progress::Bar;
+use crate::write;
+use buffer::Buffer;
+use camera::Camera;
+use canvas::{Align, Canvas, Rgb, srgb};
+use morula::math::PrincipalFrame;
+use morula::measure::{Quality, QualityOptions, quality};
+use morula::{Run, Solid, Sphere};
+use shade::Light;
+use std::path::Path;
+
+/// Samples along each edge of a pixel.
+const FINE: usize = 3;
+
+#[derive(clap::Args)]
+pub struct Args {
+    /// The target: as for `morula clump`
+    input: String,
+    /// The clump: CSV or JSON as written by `morula clump`
+    clump: String,
+    /// Picture to write
+    #[arg(short, long, value_name = "FILE.png")]
+    output: String,
+    /// Turn of the viewer about z, degrees
+    #[arg(long, default_value_t = -60.0, allow_hyphen_values = true, value_parser = angle)]
+    azimuth: f64,
+    /// Height of the viewer above the xy plane, degrees
+    #[arg(long, default_value_t = 25.0, allow_hyphen_values = true, value_parser = angle)]
+    elevation: f64,
+    /// Width and height in pixels
+    #[arg(long, value_name = "WxH", default_value = "1500x640", value_parser = size)]
+    size: (usize, usize),
+    /// End of the colour scale, in percent of the equivalent diameter [default: what fits]
+    #[arg(long, value_name = "PERCENT", value_parser = crate::input::positive)]
+    scale: Option<f64>,
+    /// Frame that the clump's spheres are given in
+    #[arg(long, value_enum, default_value_t = Frame::Input)]
+    frame: Frame,
+    /// Threads; 0: all cores
+    #[arg(long, default_value_t = 0)]
+    threads: usize,
+    /// No progress bar
+    #[arg(short, long)]
+    quiet: bool,
+    #[command(flatten)]
+    fineness: Fineness,
+    #[command(flatten)]
+    reading: Reading,
+}
+
+pub fn run(args: &Args) -> Done {
+    let bar = Bar::new("view", args.quiet);
+    let run = bar.attach(Run::new(args.threads).about("")?);
+    let mut spheres = read::spheres(Path::new(&args.clump)).about(&args.clump)?;
+    let shape = args.reading.shape(&args.input, &run)?;
+    let solid = args.fineness.solid(&shape, &args.reading, &run).about(&args.input)?;
+    if args.frame == Frame::Body {
+        let moments = solid.moments();
+        let axes = PrincipalFrame::of(&moments.inertia).axes;
+        for s in &mut spheres {
+            s.center = axes * s.center + moments.centroid;
+        }
+    }
+    let measured =
+        quality(&solid, &spheres, &QualityOptions::default(), &run).about(&args.clump)?;
+    let canvas = picture(args, &solid, &spheres, &measured, &run).about(&args.output)?;
+    drop(bar);
+    write::to(&args.output, |out| canvas.write_png(out))
+}
+
+/// Where things stand on the picture, in pixels.
+struct Layout {
+    text: f32,
+    panel: [usize; 2],
+    top: usize,
+    left: [usize; 3],
+    foot: f32,
+}
+
+impl Layout {
+    fn of(width: usize, height: usize) -> Layout {
+        let text = (width.min(3 * height) as f32 / 105.0).max(7.0);
+        let top = (5.4 * text) as usize;
+        let foot = height as f32 - 5.2 * text;
+        let gap = (width / 100).max(2);
+        let panel = [(width - 4 * gap) / 3, (foot as usize).saturating_sub(top).max(8)];
+        let left = [0, 1, 2].map(|i| gap + i * (panel[0] + gap));
+        Layout { text, panel, top, left, foot }
+    }
+
+    fn middle(&self, i: usize) -> f32 {
+        self.left[i] as f32 + 0.5 * self.panel[0] as f32
+    }
+}
+
+fn picture(
+    args: &Args,
+    solid: &Solid,
+    spheres: &[Sphere],
+    measured: &Quality,
+    run: &Run,
+) -> morula::Result<Canvas> {
+    let (width, height) = args.size;
+    let mut canvas = Canvas::new(width, height)?;
+    let layout = Layout::of(width, height);
+    let unit: Vec<Sphere> = spheres.iter().map(|s| solid.frame().sphere_to_unit(s)).collect();
+    let target = surface::triangles(solid.body());
+    let mut camera = Camera::new(args.azimuth, args.elevation);
+    let corners = target.iter().flat_map(|t| t.corners).map(|p| (p, 0.0));
+    camera.frame(
+        corners.chain(unit.iter().map(|s| (s.center, s.radius))),
+        layout.panel.map(|p| 0.94 * p as f64),
+    );
+
+    let mut body = Buffer::new(layout.panel[0], layout.panel[1], FINE, &camera)?;
+    body.triangles(target.into_iter());
+    let stone = srgb(206, 196, 178);
+    let place = |i: usize| [layout.left[i], layout.top];
+    shade::draw(&mut canvas, place(0), &body, FINE, Light::Body, run.pool(), |_, _, _| stone);
+
+    let mut clump = Buffer::new(layout.panel[0], layout.panel[1], FINE, &camera)?;
+    clump.spheres(&unit, run.pool());
+    let diameter = equivalent_diameter(solid.unit_moments().volume);
+    let errors = errors(solid, &clump, diameter, run)?;
+    let end = args.scale.unwrap_or_else(|| fitting_scale(&errors));
+    shade::draw(&mut canvas, place(1), &clump, FINE, Light::Data, run.pool(), |x, y, _| {
+        colour::diverging(errors[x + clump.width * y] / end as f32)
+    });
+    section::draw(&mut canvas, place(2), layout.panel, &camera, solid, &unit, run)?;
+    words(&mut canvas, &layout, args, spheres.len(), measured, solid, end);
+    Ok(canvas)
+}
+
+/// Signed distance from the target's surface at every sample of the clump, in
+/// percent of the equivalent diameter; positive beyond the surface.
+fn errors(solid: &Solid, clump: &Buffer, diameter: f64, run: &Run) -> morula::Result<Vec<f32>> {
+    let field = solid.distance(run)?;
+    let grid = solid.grid();
+    let last = grid.center(grid.dims[0] - 1, grid.dims[1] - 1, grid.dims[2] - 1);
+    let first = grid.center(0, 0, 0);
+    let mut out = morula::error::filled("surface errors", clump.samples.len(), 0f32)?;
+    run.pool().chunks_mut(&mut out, clump.width, |y, row| {
+        for (x, e) in row.iter_mut().enumerate() {
+            let s = &clump.samples[x + clump.width * y];
+            if s.hit() {
+                let [u, v] = clump.plane(x, y);
+                let p = clump.camera.unproject([u, v, f64::from(s.depth)]);
+                let on_grid = (0..3).all(|a| p[a] >= first[a] && p[a] <= last[a]);
+                let d = if on_grid {
+                    grid.trilinear(field, &p)
+                } else {
+                    solid.surface().signed_distance(&p)
+                };
+                *e = (100.0 * d / diameter) as f32;
+            }
+        }
+    });
+    Ok(out)
+}
+
+/// A round figure that all but 2 % of what is seen lies within.
+fn fitting_scale(errors: &[f32]) -> f64 {
+    let mut sizes: Vec<f32> = errors.iter().filter(|e| **e != 0.0).map(|e| e.abs()).collect();
+    sizes.sort_by(f32::total_cmp);
+    let at = (sizes.len() * 98 / 100).min(sizes.len().saturating_sub(1));
+    colour::round_up(f64::from(sizes.get(at).copied().unwrap_or(1.0)))
+}
+
+fn words(
+    canvas: &mut Canvas,
+    layout: &Layout,
+    args: &Args,
+    count: usize,
+    q: &Quality,
+    solid: &Solid,
+    end: f64,
+) {
+    let dark = srgb(28, 30, 36);
+    let soft = srgb(96, 100, 110);
+    let t = layout.text;
+    let diameter = equivalent_diameter(solid.moments().volume);
+    let name = Path::new(&args.input).file_name().and_then(|n| n.to_str()).unwrap_or(&args.input);
+    let figures = format!(
+        "n {count}   D {:.4}   coverage {:.1} %   overshoot {:.1} %   protrusion {:.1} % of d",
+        q.mismatch,
+        100.0 * q.coverage,
+        100.0 * q.overshoot,
+        100.0 * q.protrusion / diameter,
+    );
+    let left = layout.left[0] as f32;
+    canvas.text(name, left, 2.0 * t, 1.25 * t, Align::Left, dark);
+    let after = left + canvas::text_width(name, 1.25 * t) + 2.0 * t;
+    canvas.text(&figures, after, 2.0 * t, 1.25 * t, Align::Left, soft);
+    for (i, title) in ["target", "clump, coloured by surface error", "section"].iter().enumerate() {
+        canvas.text(title, layout.middle(i), 4.6 * t, t, Align::Centre, soft);
+    }
+    bar(canvas, layout, end, dark, soft);
+    legend(canvas, layout, dark);
+}
+
+/// The scale of the surface error, under the clump.
+fn bar(canvas: &mut Canvas, layout: &Layout, end: f64, dark: Rgb, soft: Rgb) {
+    let t = layout.text;
+    let half = 0.34 * layout.panel[0] as f32;
+    let (x0, x1) = (layout.middle(1) - half, layout.middle(1) + half);
+    let (y0, y1) = (layout.foot + 0.8 * t, layout.foot + 1.7 * t);
+    let steps = (x1 - x0) as usize;
+    for i in 0..steps {
+        let value = 2.0 * (i as f32 + 0.5) / steps as f32 - 1.0;
+        let x = x0 + i as f32;
+        canvas.rectangle([x, x + 1.0], [y0, y1], colour::diverging(value));
+    }
+    for k in 0..5 {
+        let f = k as f32 / 4.0;
+        let x = x0 + f * (x1 - x0);
+        canvas.rectangle([x - 0.5, x + 0.5], [y1, y1 + 0.3 * t], dark);
+        let label = colour::short(end * (2.0 * f64::from(f) - 1.0));
+        canvas.text(&label, x, y1 + 1.5 * t, 0.9 * t, Align::Centre, dark);
+    }
+    let caption = "inside    % of equivalent diameter    beyond";
+    canvas.text(caption, layout.middle(1), y1 + 3.0 * t, 0.8 * t, Align::Centre, soft);
+}
+
+/// What the colours of the section mean.
+fn legend(canvas: &mut Canvas, layout: &Layout, dark: Rgb) {
+    let t = layout.text;
+    let entries = [
+        ("covered", section::both()),
+        ("missed", section::missed()),
+        ("beyond", section::beyond()),
+    ];
+    let total: f32 =
+        entries.iter().map(|(n, _)| canvas::text_width(n, 0.9 * t) + 3.2 * t).sum::<f32>()
+            - 1.8 * t;
+    let mut x = layout.middle(2) - 0.5 * total;
+    let y = layout.foot + 1.7 * t;
+    for (name, colour) in entries {
+        canvas.rectangle([x, x + 0.9 * t], [y - 0.9 * t, y], colour);
+        canvas.text(name, x + 1.4 * t, y, 0.9 * t, Align::Left, dark);
+        x += canvas::text_width(name, 0.9 * t) + 3.2 * t;
+    }
+}
+
+fn angle(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(v) if v.abs() <= 360.0 => Ok(v),
+        _ => Err(format!("{text} is not an angle within ±360 degrees")),
+    }
+}
+
+fn size(text: &str) -> Result<(usize, usize), String> {
+    let parsed = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    match parsed {
+        Some((w, h)) if (120..=8000).contains(&w) && (100..=8000).contains(&h) => Ok((w, h)),
+        Some((w, h)) => Err(format!("{w}x{h} is outside 120x100 … 8000x8000")),
+        None => Err(format!("{text} is not of the form WIDTHxHEIGHT")),
+    }
+}
