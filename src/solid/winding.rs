@@ -3,13 +3,16 @@
 //!
 //! Faces are sorted along a Morton curve and gathered in a binary tree. A node
 //! that is far away (farther than [`BETA`] times its radius) answers by its
-//! expansion: the dipole N·d/|d|³ and the next term tr M/|d|³ − 3 dᵀMd/|d|⁵
-//! with N = Σ aₙ, M = Σ aₙ ⊗ (c − p̃). A near leaf sums its solid angles.
+//! expansion about its centre p̃, with y = x − p̃ and d = p̃ − q:
+//! N·d/|d|³ − 3 dᵀMd/|d|⁵ + 15 S:ddd/|d|⁷, where N = ∫n dA, M = ∫n⊗y dA and
+//! S = ½∫n⊗y⊗y dA, symmetric and without traces (these give no field, for 1/|d|
+//! is harmonic). A near leaf sums its solid angles.
 
 use crate::math::Vec3;
 use crate::shape::Mesh;
 
-/// A node is far when its distance exceeds this many of its radii.
+/// A node is far when its distance exceeds this many of its radii. 2.3 keeps the error of the
+/// winding number within 3e-3 on the meshes tried (2.0: 5e-3, 2.6: 1.3e-3 at twice the time).
 const BETA: f64 = 2.3;
 /// Most faces of a leaf.
 const LEAF: usize = 4;
@@ -31,17 +34,111 @@ struct Node {
     center: Vec3,
     /// Square of the distance beyond which the expansion answers.
     far2: f64,
-    /// Σ a n.
-    dipole: Vec3,
-    /// tr M.
-    trace: f64,
-    /// Symmetric part of M, as xx, yy, zz, xy + yx, xz + zx, yz + zy.
-    second: [f64; 6],
+    /// N, M and S of the expansion.
+    field: Expansion,
     /// First face and one past the last.
     first: u32,
     last: u32,
     /// The first node that is not below this one.
     skip: u32,
+}
+
+/// The field of faces far away.
+#[derive(Debug, Clone, Copy, Default)]
+struct Expansion {
+    /// N.
+    dipole: Vec3,
+    /// M as xx, yy, zz, xy, xz, yz.
+    second: [f64; 6],
+    /// S as xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz.
+    third: [f64; 10],
+}
+
+impl Expansion {
+    /// The expansion of one face about its centroid.
+    fn of_face(f: &[Vec3; 3], centroid: &Vec3, normal: &Vec3) -> Self {
+        let mut spread = [0.0; 6];
+        for v in f {
+            add(&mut spread, &product(&(v - centroid), &(v - centroid)), 1.0 / 24.0);
+        }
+        Expansion { dipole: *normal, second: [0.0; 6], third: times(&spread, normal) }
+    }
+
+    /// Adds the expansion of a part whose centre lies `s` beyond this one's.
+    fn gather(&mut self, part: &Expansion, s: &Vec3) {
+        let shift = product(&part.dipole, s);
+        let mut half = part.second;
+        add(&mut half, &shift, 0.5);
+        add(&mut self.third, &times(&half, s), 1.0);
+        add(&mut self.third, &part.third, 1.0);
+        add(&mut self.second, &shift, 1.0);
+        add(&mut self.second, &part.second, 1.0);
+        self.dipole += part.dipole;
+    }
+
+    /// Takes the traces out.
+    fn traceless(&mut self) {
+        let [xx, yy, zz, ..] = self.second;
+        let t = (xx + yy + zz) / 3.0;
+        for v in &mut self.second[..3] {
+            *v -= t;
+        }
+        let [xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, _] = self.third;
+        let (x, y, z) = ((xxx + xyy + xzz) / 5.0, (yyy + xxy + yzz) / 5.0, (zzz + xxz + yyz) / 5.0);
+        let trace = [3.0 * x, 3.0 * y, 3.0 * z, y, z, x, z, x, y, 0.0];
+        add(&mut self.third, &trace, -1.0);
+    }
+
+    /// The field at distance `d` (from the point to the centre) times 4π.
+    fn at(&self, d: &Vec3, d2: f64) -> f64 {
+        let [xx, yy, zz, xy, xz, yz] = self.second;
+        let (x, y, z) = (d.x, d.y, d.z);
+        let (x2, y2, z2) = (x * x, y * y, z * z);
+        let quadratic = xx * x2 + yy * y2 + zz * z2 + 2.0 * (x * (xy * y + xz * z) + yz * y * z);
+        let [xxx, yyy, zzz, xxy, xxz, xyy, yyz, xzz, yzz, xyz] = self.third;
+        let cubic = x * (xxx * x2 + 3.0 * (xyy * y2 + xzz * z2) + 6.0 * xyz * y * z)
+            + y * (yyy * y2 + 3.0 * (xxy * x2 + yzz * z2))
+            + z * (zzz * z2 + 3.0 * (xxz * x2 + yyz * y2));
+        let inverse = 1.0 / d2;
+        (self.dipole.dot(d) + inverse * (15.0 * inverse * cubic - 3.0 * quadratic))
+            * inverse
+            * inverse.sqrt()
+    }
+}
+
+/// The symmetric part of a ⊗ b.
+fn product(a: &Vec3, b: &Vec3) -> [f64; 6] {
+    [
+        a.x * b.x,
+        a.y * b.y,
+        a.z * b.z,
+        0.5 * (a.x * b.y + a.y * b.x),
+        0.5 * (a.x * b.z + a.z * b.x),
+        0.5 * (a.y * b.z + a.z * b.y),
+    ]
+}
+
+/// The symmetric part of m ⊗ a.
+fn times(&[xx, yy, zz, xy, xz, yz]: &[f64; 6], a: &Vec3) -> [f64; 10] {
+    [
+        xx * a.x,
+        yy * a.y,
+        zz * a.z,
+        (xx * a.y + 2.0 * xy * a.x) / 3.0,
+        (xx * a.z + 2.0 * xz * a.x) / 3.0,
+        (yy * a.x + 2.0 * xy * a.y) / 3.0,
+        (yy * a.z + 2.0 * yz * a.y) / 3.0,
+        (zz * a.x + 2.0 * xz * a.z) / 3.0,
+        (zz * a.y + 2.0 * yz * a.z) / 3.0,
+        (xy * a.z + xz * a.y + yz * a.x) / 3.0,
+    ]
+}
+
+/// `sum += term * factor`.
+fn add<const N: usize>(sum: &mut [f64; N], term: &[f64; N], factor: f64) {
+    for (s, t) in sum.iter_mut().zip(term) {
+        *s += t * factor;
+    }
 }
 
 impl Winding {
@@ -81,17 +178,14 @@ impl Winding {
         self.nodes.push(Node {
             center: Vec3::zeros(),
             far2: 0.0,
-            dipole: Vec3::zeros(),
-            trace: 0.0,
-            second: [0.0; 6],
+            field: Expansion::default(),
             first: first as u32,
             last: last as u32,
             skip: 0,
         });
         let mut area = 0.0;
         let mut weighted = Vec3::zeros();
-        let mut dipole = Vec3::zeros();
-        let mut parts: [(Vec3, Vec3, nalgebra::Matrix3<f64>); LEAF] = Default::default();
+        let mut parts: [(Vec3, Expansion); LEAF] = Default::default();
         let mut count = 0;
         let (mut lo, mut hi) = (Vec3::repeat(f64::MAX), Vec3::repeat(-f64::MAX));
         if last - first <= LEAF {
@@ -101,8 +195,7 @@ impl Winding {
                 let a = n.norm();
                 area += a;
                 weighted += c * a;
-                dipole += n;
-                parts[count] = (c, n, nalgebra::Matrix3::zeros());
+                parts[count] = (c, Expansion::of_face(f, &c, &n));
                 count += 1;
                 for v in f {
                     lo = lo.inf(v);
@@ -117,36 +210,25 @@ impl Winding {
                 let node = &self.nodes[child];
                 area += a;
                 weighted += node.center * a;
-                dipole += node.dipole;
-                let [xx, yy, zz, xy, xz, yz] = node.second;
-                let m = nalgebra::Matrix3::new(xx, xy, xz, 0.0, yy, yz, 0.0, 0.0, zz);
-                parts[count] = (node.center, node.dipole, m);
+                parts[count] = (node.center, node.field);
                 count += 1;
                 lo = lo.inf(&l);
                 hi = hi.sup(&h);
             }
         }
         let center = if area > 0.0 { weighted / area } else { (lo + hi) * 0.5 };
-        let mut m = nalgebra::Matrix3::<f64>::zeros();
-        for (c, n, own) in &parts[..count] {
-            m += own + n * (c - center).transpose();
+        let mut field = Expansion::default();
+        for (c, part) in &parts[..count] {
+            field.gather(part, &(c - center));
         }
+        field.traceless();
         let radius2 = (center - lo).sup(&(hi - center)).norm_squared();
         let skip = self.nodes.len() as u32;
         let node = &mut self.nodes[at];
         node.center = center;
         // Never so near that the expansion divides by an underflow.
         node.far2 = (BETA * BETA * radius2).max(1e-40);
-        node.dipole = dipole;
-        node.trace = m.trace();
-        node.second = [
-            m[(0, 0)],
-            m[(1, 1)],
-            m[(2, 2)],
-            m[(0, 1)] + m[(1, 0)],
-            m[(0, 2)] + m[(2, 0)],
-            m[(1, 2)] + m[(2, 1)],
-        ];
+        node.field = field;
         node.skip = skip;
         (area, lo, hi)
     }
@@ -159,11 +241,7 @@ impl Winding {
             let d = node.center - p;
             let d2 = d.norm_squared();
             if d2 > node.far2 {
-                let [xx, yy, zz, xy, xz, yz] = node.second;
-                let quadratic = d.x * (xx * d.x + xy * d.y + xz * d.z)
-                    + d.y * (yy * d.y + yz * d.z)
-                    + zz * d.z * d.z;
-                sum += (node.dipole.dot(&d) + node.trace - 3.0 * quadratic / d2) / (d2 * d2.sqrt());
+                sum += node.field.at(&d, d2);
                 at = node.skip as usize;
             } else if node.last - node.first <= LEAF as u32 {
                 let faces = self.faces.get(node.first as usize..node.last as usize);
