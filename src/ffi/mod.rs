@@ -1,2 +1,37 @@
-//! The C ABI. The only room with `unsafe`.
+//! The C ABI: the only room with `unsafe`. One file per noun of the header;
+//! every function passes through [`guard`], which catches panics and keeps the
+//! thread's error message.
+//!
+//! The doc comments here are the manual of `include/morula.h`, which is
+//! generated from them; they are written for a C reader, so that what Rust
+//! calls safety is said there as ownership, sizes and threads.
 #![allow(unsafe_code)]
+#![allow(non_camel_case_types)]
+// Every pointer's contract is in the text of the function and in the header's introduction.
+#![allow(clippy::missing_safety_doc)]
+// A C function has no builder to hide its parameters in.
+#![allow(clippy::too_many_arguments)]
+
+mod callbacks;
+mod clump;
+mod clump_read;
+mod file;
+mod guard;
+mod options;
+mod primitive;
+mod shape;
+mod solid;
+mod status;
+mod structs;
+mod voxels;
+
+pub use callbacks::*;
+pub use clump::*;
+pub use clump_read::*;
+pub use file::*;
+pub use primitive::*;
+pub use shape::*;
+pub use solid::*;
+pub use status::*;
+pub use structs::*;
+pub use voxels::*;

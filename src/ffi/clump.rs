@@ -1,0 +1,223 @@
+//! Making clumps.
+
+use super::callbacks::{MORULA_LOG_INFO, log, log_notes, run};
+use super::guard::{borrow, give, guard, require, slice, take};
+use super::options::{init, read};
+use super::shape::morula_shape;
+use super::solid::{build, morula_solid};
+use super::structs::*;
+use crate::clump::Clump;
+use crate::error::{Error, Result};
+use crate::generate::{GenerateOptions, Method, generate};
+use crate::math::{Moments, PrincipalFrame, UnitFrame};
+use crate::measure::QualityOptions;
+use crate::run::Run;
+use crate::solid::Solid;
+
+/// A clump: spheres and what was measured on them. Made by
+/// morula_clump_from_shape() or morula_clump_from_solid(), freed by
+/// morula_clump_free(). It needs neither shape nor solid any more.
+pub struct morula_clump {
+    pub(super) inner: Clump,
+    /// In the frame that was asked for.
+    pub(super) spheres: Vec<f64>,
+    pub(super) wants: u32,
+    pub(super) planes: bool,
+    /// Moments in the unit frame, and that frame.
+    pub(super) target: (Moments, UnitFrame),
+}
+
+const _: () = {
+    // Const functions may run at the same time on one handle.
+    const fn shared<T: Send + Sync>() {}
+    shared::<morula_clump>();
+};
+
+const ALL_WANTS: u32 = MORULA_WANT_OVERLAP | MORULA_WANT_SURFACE | MORULA_WANT_MOMENTS;
+
+/// The caller's options, checked.
+struct Asked<'a> {
+    generate: GenerateOptions,
+    run: Run<'a>,
+    wants: u32,
+    body_frame: bool,
+}
+
+unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
+    let o = unsafe { read(options)? };
+    let no_choice = |name: &str, value: i32| {
+        Err(Error::InvalidArgument(format!("{name} is {value}, no choice")))
+    };
+    let method = match o.method {
+        MORULA_METHOD_MSS => Method::Mss,
+        other => return no_choice("method", other),
+    };
+    let confine = match o.confine {
+        0 => false,
+        1 => true,
+        other => return no_choice("confine", other),
+    };
+    let body_frame = match o.frame {
+        MORULA_FRAME_INPUT => false,
+        MORULA_FRAME_BODY => true,
+        other => return no_choice("frame", other),
+    };
+    if o.wants & !ALL_WANTS != 0 {
+        return Err(Error::InvalidArgument(format!(
+            "wants is {}, of which {} is unknown",
+            o.wants,
+            o.wants & !ALL_WANTS
+        )));
+    }
+    if !(o.deadline_seconds.is_finite() && o.deadline_seconds >= 0.0) {
+        return Err(Error::InvalidArgument(format!(
+            "deadline_seconds is {}, not a number >= 0",
+            o.deadline_seconds
+        )));
+    }
+    let planes = unsafe { slice(o.plane_tolerances, o.plane_tolerance_count, "plane_tolerances")? };
+    for (i, t) in planes.iter().enumerate() {
+        if !(t.is_finite() && *t >= 0.0) {
+            return Err(Error::InvalidArgument(format!(
+                "plane tolerance {i} is {t}, not a number >= 0"
+            )));
+        }
+    }
+    let mut quality = QualityOptions {
+        overlap: o.wants & MORULA_WANT_OVERLAP != 0,
+        surface: o.wants & MORULA_WANT_SURFACE != 0,
+        plane_tolerances: planes.to_vec(),
+        ..QualityOptions::default()
+    };
+    if o.quality_columns > 0 {
+        quality.columns = o.quality_columns as usize;
+    }
+    let measured = quality.overlap || quality.surface || !planes.is_empty();
+    let generate = GenerateOptions {
+        method,
+        spheres: usize::try_from(o.spheres).unwrap_or(usize::MAX),
+        mismatch: o.mismatch,
+        min_radius: o.min_radius,
+        min_distance: o.min_distance,
+        radius_offset: o.radius_offset,
+        confine,
+        quality: measured.then_some(quality),
+    };
+    let mut run = run(o.threads, o.progress, o.user)?.with_seed(o.seed);
+    if o.deadline_seconds > 0.0 {
+        run = run.with_deadline(o.deadline_seconds);
+    }
+    Ok(Asked { generate, run, wants: o.wants, body_frame })
+}
+
+fn make(solid: &Solid, asked: &Asked) -> Result<morula_clump> {
+    let inner = generate(solid, &asked.generate, &asked.run)?;
+    let frame = *solid.frame();
+    let moments = *solid.unit_moments();
+    let mut spheres = crate::error::reserve("the spheres", inner.spheres.len().saturating_mul(4))?;
+    let axes = asked.body_frame.then(|| PrincipalFrame::of(&moments.inertia).axes);
+    for s in &inner.spheres {
+        let center = match &axes {
+            // By way of the unit frame: far from the origin it loses nothing more.
+            Some(axes) => axes.tr_mul(&(frame.to_unit(&s.center) - moments.centroid)) * frame.scale,
+            None => s.center,
+        };
+        spheres.extend([center.x, center.y, center.z, s.radius]);
+    }
+    log(MORULA_LOG_INFO, || {
+        let c = &inner.counters;
+        format!(
+            "{} spheres in {:.1} ms, stopped by {}",
+            inner.spheres.len(),
+            1e3 * c.seconds.iter().sum::<f64>(),
+            inner.stopped.name()
+        )
+    });
+    if !inner.note.is_empty() {
+        log_notes(std::slice::from_ref(&inner.note));
+    }
+    Ok(morula_clump {
+        inner,
+        spheres,
+        wants: asked.wants,
+        planes: asked.generate.quality.as_ref().is_some_and(|q| !q.plane_tolerances.is_empty()),
+        target: (moments, frame),
+    })
+}
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_clump_options_init(
+    options: *mut morula_clump_options,
+    size: usize,
+) -> i32 {
+    guard(|| unsafe { init(options, size) })
+}
+
+/// Makes a clump of a shape; the solid is made inside. For several clumps of
+/// one shape make the solid once and use morula_clump_from_solid().
+///
+/// Parameters: `solid_options` and `options` may be NULL for the defaults;
+/// threads, progress and user are those of `options`.
+/// Returns: MORULA_STATUS_OK; the statuses of morula_solid_from_shape() and of
+/// morula_clump_from_solid().
+/// Ownership: the shape stays the caller's and may be freed at once; free
+/// *clump with morula_clump_free(). *clump is written only on success.
+/// Threads: any thread; the shape is only read. The same bytes come out for any
+/// number of threads.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_clump_from_shape(
+    shape: *const morula_shape,
+    solid_options: *const morula_solid_options,
+    options: *const morula_clump_options,
+    clump: *mut *mut morula_clump,
+) -> i32 {
+    guard(|| {
+        let shape = unsafe { borrow(shape, "shape")? };
+        require(clump, "clump")?;
+        let solid_options = unsafe { read(solid_options)? };
+        let asked = unsafe { asked(options)? };
+        let solid = build(&shape.inner, &solid_options, &asked.run)?;
+        let made = make(&solid, &asked)?;
+        unsafe { give(clump, made) };
+        Ok(())
+    })
+}
+
+/// Makes a clump of a solid.
+///
+/// Parameters: `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK, also when the deadline passed or the callback
+/// cancelled after there were spheres (ask morula_clump_stopped());
+/// NULL_POINTER; INVALID_ARGUMENT (an option); STRUCT_SIZE; CANCELLED (before
+/// there was a sphere); NO_SPHERES; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
+/// Ownership: the solid stays the caller's and may be freed at once; free
+/// *clump with morula_clump_free(). *clump is written only on success.
+/// Threads: any thread; the solid is only read. The same bytes come out for any
+/// number of threads.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_clump_from_solid(
+    solid: *const morula_solid,
+    options: *const morula_clump_options,
+    clump: *mut *mut morula_clump,
+) -> i32 {
+    guard(|| {
+        let solid = unsafe { borrow(solid, "solid")? };
+        require(clump, "clump")?;
+        let asked = unsafe { asked(options)? };
+        let made = make(&solid.inner, &asked)?;
+        unsafe { give(clump, made) };
+        Ok(())
+    })
+}
+
+/// Takes a clump back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_clump_free(clump: *mut morula_clump) {
+    unsafe { take(clump) };
+}

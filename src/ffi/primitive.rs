@@ -1,0 +1,141 @@
+//! The built-in analytic particles by name.
+
+use super::guard::{copy_text, guard, require, slice, text};
+use super::shape::{give_shape, import, morula_shape, put};
+use super::structs::morula_import_options;
+use crate::error::Error;
+use crate::shape::{Primitive, Shape};
+use std::ffi::{CStr, c_char};
+
+const NAMES: [&CStr; Primitive::NAMES.len()] = [
+    c"sphere",
+    c"ellipsoid",
+    c"superellipsoid",
+    c"box",
+    c"cylinder",
+    c"capsule",
+    c"torus",
+    c"cone",
+    c"tablet",
+    c"mandm",
+    c"stone",
+];
+
+/// The name of the built-in analytic particle number `index`, counted from 0.
+///
+/// Returns: static text; NULL when there are no more. Do not free it.
+/// Threads: any thread at any time.
+#[unsafe(no_mangle)]
+pub extern "C" fn morula_primitive_name(index: usize) -> *const c_char {
+    NAMES.get(index).map_or(std::ptr::null(), |n| n.as_ptr())
+}
+
+/// How many parameters a built-in particle has.
+///
+/// Parameters: `name` is one of morula_primitive_name().
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; UNSUPPORTED (no such name).
+/// Threads: any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_primitive_parameter_count(
+    name: *const c_char,
+    count: *mut usize,
+) -> i32 {
+    guard(|| {
+        let primitive = Primitive::from_name(unsafe { text(name, "name")? })?;
+        unsafe { put(count, primitive.parameters().len(), "count") }
+    })
+}
+
+/// Copies the key of parameter `index` (from 0) with its closing NUL, and its default.
+///
+/// Parameters: `key` has room for `capacity` bytes; `length` (may be NULL)
+/// becomes the length without the NUL; with `key` NULL and `capacity` 0 the key
+/// is not copied. `value` (may be NULL) becomes the default.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; UNSUPPORTED (no such name);
+/// INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_primitive_copy_parameter(
+    name: *const c_char,
+    index: usize,
+    capacity: usize,
+    key: *mut c_char,
+    length: *mut usize,
+    value: *mut f64,
+) -> i32 {
+    guard(|| {
+        let all = Primitive::from_name(unsafe { text(name, "name")? })?.parameters();
+        let (text, default) = all.get(index).ok_or_else(|| {
+            Error::IndexOutOfRange(format!(
+                "parameter {index} does not exist, there are {}",
+                all.len()
+            ))
+        })?;
+        unsafe { copy_text(text, capacity, key, length)? };
+        if !value.is_null() {
+            unsafe { put(value, *default, "value")? };
+        }
+        Ok(())
+    })
+}
+
+/// Makes a shape of a built-in analytic particle, centred on the origin, its
+/// axis of revolution along z.
+///
+/// Parameters: `name` is one of morula_primitive_name(); `keys` and `values`
+/// set `count` of its parameters (each key as morula_primitive_copy_parameter()
+/// gives it; NULL with a count of 0 keeps the defaults); `segments` is about
+/// the number of edges around the body (0: 64); `seed` tells stones apart and
+/// is not read by the others; `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; UNSUPPORTED (no such name);
+/// INVALID_ARGUMENT (a key, a value or an option); STRUCT_SIZE; NOT_FINITE;
+/// TOO_LARGE; MEMORY_LIMIT; OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Ownership: strings and arrays are copied; free *shape with
+/// morula_shape_free(). *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_from_primitive(
+    name: *const c_char,
+    keys: *const *const c_char,
+    values: *const f64,
+    count: usize,
+    segments: u32,
+    seed: u64,
+    options: *const morula_import_options,
+    shape: *mut *mut morula_shape,
+) -> i32 {
+    guard(|| {
+        require(shape, "shape")?;
+        let (import, run, _) = unsafe { import(options)? };
+        let mut primitive = Primitive::from_name(unsafe { text(name, "name")? })?;
+        if let Primitive::Stone { seed: which, .. } = &mut primitive {
+            *which = seed;
+        }
+        let (keys, values) =
+            unsafe { (slice(keys, count, "keys")?, slice(values, count, "values")?) };
+        for (key, value) in keys.iter().zip(values) {
+            let key = unsafe { text(*key, "one of the keys")? };
+            if !value.is_finite() {
+                return Err(Error::NotFinite(format!("the value of {key} is {value}")));
+            }
+            primitive.set(key, *value)?;
+        }
+        let segments = if segments == 0 { 64 } else { segments as usize };
+        let made = Shape::from_primitive(&primitive, segments, &import, &run)?;
+        unsafe { give_shape(shape, made) };
+        Ok(())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_names_are_the_librarys() {
+        for (ours, theirs) in NAMES.iter().zip(Primitive::NAMES) {
+            assert_eq!(ours.to_str(), Ok(theirs));
+        }
+        assert!(morula_primitive_name(NAMES.len()).is_null());
+    }
+}

@@ -1,0 +1,520 @@
+//! The structs of the header. Each begins with `struct_size`, has no padding
+//! and grows only at its end (see `options.rs`).
+
+use super::callbacks::morula_progress;
+use super::options::Versioned;
+use std::ffi::c_void;
+
+/// morula_import_options, for morula_sizeof().
+pub const MORULA_STRUCT_IMPORT_OPTIONS: i32 = 1;
+/// morula_file_options, for morula_sizeof().
+pub const MORULA_STRUCT_FILE_OPTIONS: i32 = 2;
+/// morula_solid_options, for morula_sizeof().
+pub const MORULA_STRUCT_SOLID_OPTIONS: i32 = 3;
+/// morula_clump_options, for morula_sizeof().
+pub const MORULA_STRUCT_CLUMP_OPTIONS: i32 = 4;
+/// morula_report, for morula_sizeof().
+pub const MORULA_STRUCT_REPORT: i32 = 5;
+/// morula_moments, for morula_sizeof().
+pub const MORULA_STRUCT_MOMENTS: i32 = 6;
+/// morula_overlap, for morula_sizeof().
+pub const MORULA_STRUCT_OVERLAP: i32 = 7;
+/// morula_surface, for morula_sizeof().
+pub const MORULA_STRUCT_SURFACE: i32 = 8;
+/// morula_counters, for morula_sizeof().
+pub const MORULA_STRUCT_COUNTERS: i32 = 9;
+
+/// Refuse a shape of several disconnected bodies, with the count (the default).
+pub const MORULA_BODIES_REFUSE: i32 = 0;
+/// Keep the body of greatest volume; the notes say what was dropped.
+pub const MORULA_BODIES_LARGEST: i32 = 1;
+/// Keep all bodies as one particle.
+pub const MORULA_BODIES_ALL: i32 = 2;
+
+/// Tell the format of a file by its content, then by its name (the default).
+pub const MORULA_FORMAT_AUTO: i32 = 0;
+/// STL, ascii or binary.
+pub const MORULA_FORMAT_STL: i32 = 1;
+/// Wavefront OBJ.
+pub const MORULA_FORMAT_OBJ: i32 = 2;
+/// PLY, ascii or binary.
+pub const MORULA_FORMAT_PLY: i32 = 3;
+/// OFF, COFF, NOFF.
+pub const MORULA_FORMAT_OFF: i32 = 4;
+/// NumPy array.
+pub const MORULA_FORMAT_NPY: i32 = 5;
+/// Multi-page TIFF.
+pub const MORULA_FORMAT_TIFF: i32 = 6;
+/// Raw voxels: the raw_ fields of the options describe them.
+pub const MORULA_FORMAT_RAW: i32 = 7;
+
+/// Voxel files: two values are a mask, more are grey values with Otsu's threshold (the default).
+pub const MORULA_MEANING_AUTO: i32 = 0;
+/// Voxel files: grey values, solid above Otsu's threshold.
+pub const MORULA_MEANING_OTSU: i32 = 1;
+/// Voxel files: grey values, solid above the option `threshold`.
+pub const MORULA_MEANING_ABOVE: i32 = 2;
+/// Voxel files: labels, of which the option `label` is taken.
+pub const MORULA_MEANING_LABEL: i32 = 3;
+
+/// Raw voxels of 8 bits, unsigned.
+pub const MORULA_RAW_U8: i32 = 0;
+/// Raw voxels of 16 bits, unsigned, little-endian.
+pub const MORULA_RAW_U16: i32 = 1;
+/// Raw voxels of 32 bits, floating point, little-endian.
+pub const MORULA_RAW_F32: i32 = 2;
+
+/// `cells` along the longest edge of the bounding box (the default, 64).
+pub const MORULA_RESOLUTION_CELLS_LONGEST: i32 = 0;
+/// `cells` along the shortest edge of the bounding box.
+pub const MORULA_RESOLUTION_CELLS_SHORTEST: i32 = 1;
+/// `cells` along the diameter of the sphere of equal volume.
+pub const MORULA_RESOLUTION_CELLS_DIAMETER: i32 = 2;
+/// Cells of the edge length `cell_size`.
+pub const MORULA_RESOLUTION_CELL_SIZE: i32 = 3;
+
+/// MSS: local maxima of the distance transform, iterated (the default).
+pub const MORULA_METHOD_MSS: i32 = 0;
+
+/// Spheres in the frame in which the shape was handed in (the default).
+pub const MORULA_FRAME_INPUT: i32 = 0;
+/// Spheres in the body frame: origin at the centre of mass, axes principal.
+pub const MORULA_FRAME_BODY: i32 = 1;
+
+/// Want nothing but the spheres.
+pub const MORULA_WANT_NOTHING: u32 = 0;
+/// Want morula_clump_overlap(): D, coverage, union volume and moments.
+pub const MORULA_WANT_OVERLAP: u32 = 1;
+/// Want morula_clump_surface() and exposed areas: protrusion, distances, roughness.
+pub const MORULA_WANT_SURFACE: u32 = 2;
+/// Want morula_clump_moments(): mass, centre, inertia of the target (the default).
+pub const MORULA_WANT_MOMENTS: u32 = 4;
+
+/// The number of spheres asked for was reached.
+pub const MORULA_STOPPED_SPHERES: i32 = 0;
+/// The mismatch asked for was reached.
+pub const MORULA_STOPPED_MISMATCH: i32 = 1;
+/// Every further sphere would be smaller than the least radius.
+pub const MORULA_STOPPED_RADIUS: i32 = 2;
+/// The deadline passed.
+pub const MORULA_STOPPED_DEADLINE: i32 = 3;
+/// The progress callback cancelled; the clump holds the spheres found so far.
+pub const MORULA_STOPPED_CANCELLED: i32 = 4;
+/// The method finds no further sphere that brings the clump closer; the note says why.
+pub const MORULA_STOPPED_EXHAUSTED: i32 = 5;
+
+/// How a shape is taken in. Fill it with morula_import_options_init().
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_import_options {
+    /// sizeof(morula_import_options).
+    pub struct_size: usize,
+    /// Vertices nearer than this times the longest edge of the bounding box are one.
+    /// Default 1e-6; 0: only equal ones.
+    pub weld_tolerance: f64,
+    /// Coordinates are multiplied by it (0.001 takes millimetres to metres). Default 1.
+    pub length_unit: f64,
+    /// Most bytes that the shape's arrays may take. Default 2 GiB.
+    pub memory_limit: u64,
+    /// One of MORULA_BODIES_*. Default MORULA_BODIES_REFUSE.
+    pub bodies: i32,
+    /// 0 or 1: the index of the first vertex in an array of triangles. Default 0.
+    pub index_base: i32,
+    /// Threads of this call; 0: all cores. Default 1.
+    pub threads: i32,
+    /// Must be 0.
+    pub reserved: i32,
+    /// Called now and then on the calling thread; NULL: none.
+    pub progress: morula_progress,
+    /// Handed to `progress`.
+    pub user: *mut c_void,
+}
+
+/// How a file is read, beside morula_import_options. Fill it with morula_file_options_init().
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_file_options {
+    /// sizeof(morula_file_options).
+    pub struct_size: usize,
+    /// One of MORULA_FORMAT_*. Default MORULA_FORMAT_AUTO.
+    pub format: i32,
+    /// One of MORULA_MEANING_*, for voxel files. Default MORULA_MEANING_AUTO.
+    pub meaning: i32,
+    /// Grey values above it are solid (MORULA_MEANING_ABOVE). Default 0.
+    pub threshold: f64,
+    /// The label that is taken (MORULA_MEANING_LABEL). Default 1.
+    pub label: u32,
+    /// 0: an npy array of shape (a, b, c) has axes z, y, x; 1: x, y, z. Default 0.
+    pub npy_xyz: i32,
+    /// Edge lengths of a voxel along x, y, z, before length_unit. Default 1, 1, 1.
+    pub spacing: [f64; 3],
+    /// Lower corner of the first voxel, before length_unit. Default 0, 0, 0.
+    pub origin: [f64; 3],
+    /// Raw voxels along x, y, z; x is fastest.
+    pub raw_dims: [u64; 3],
+    /// Bytes before the first raw voxel. Default 0.
+    pub raw_skip: u64,
+    /// One of MORULA_RAW_*. Default MORULA_RAW_U8.
+    pub raw_type: i32,
+    /// Must be 0.
+    pub reserved: i32,
+}
+
+/// How a solid is made. Fill it with morula_solid_options_init().
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_solid_options {
+    /// sizeof(morula_solid_options).
+    pub struct_size: usize,
+    /// One of MORULA_RESOLUTION_*. Default MORULA_RESOLUTION_CELLS_LONGEST. Voxel shapes keep
+    /// their own cells.
+    pub resolution: i32,
+    /// Number of cells for the MORULA_RESOLUTION_CELLS_* kinds. Default 64.
+    pub cells: u32,
+    /// Edge length of a cell for MORULA_RESOLUTION_CELL_SIZE. Default 0.
+    pub cell_size: f64,
+    /// Most bytes that the grid's arrays may take together. Default 2 GiB.
+    pub memory_limit: u64,
+    /// Empty cells around the shape, at least 2. Default 4.
+    pub padding: u32,
+    /// Threads of this call; 0: all cores. Default 1. Not read by morula_clump_from_shape().
+    pub threads: i32,
+    /// Called now and then on the calling thread; NULL: none. Not read by morula_clump_from_shape().
+    pub progress: morula_progress,
+    /// Handed to `progress`.
+    pub user: *mut c_void,
+}
+
+/// What a clump is asked for. Fill it with morula_clump_options_init(). The
+/// criteria (spheres, mismatch, min_radius, deadline_seconds) apply alone or
+/// together: the first that is met stops the method.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_clump_options {
+    /// sizeof(morula_clump_options).
+    pub struct_size: usize,
+    /// Number of spheres; 0: no limit. Default 50.
+    pub spheres: u64,
+    /// Stop at this mismatch D on the method's own grid; 0: no target. Default 0.
+    pub mismatch: f64,
+    /// Least radius, in the caller's unit. Default 0.
+    pub min_radius: f64,
+    /// Least distance between centres, in cells of the grid. Default 0.
+    pub min_distance: f64,
+    /// Added to every radius, in cells of the grid; 0 has no bias. Default 0.
+    pub radius_offset: f64,
+    /// Seconds from the start of the call after which the method stops with what it has; 0:
+    /// none. Default 0.
+    pub deadline_seconds: f64,
+    /// Seed of every random choice. Default 0.
+    pub seed: u64,
+    /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS.
+    pub method: i32,
+    /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
+    pub confine: i32,
+    /// Threads of this call; 0: all cores. The spheres do not depend on it. Default 1.
+    pub threads: i32,
+    /// One of MORULA_FRAME_*. Default MORULA_FRAME_INPUT.
+    pub frame: i32,
+    /// Sum of MORULA_WANT_*. What is not wanted is not computed. Default MORULA_WANT_MOMENTS.
+    pub wants: u32,
+    /// Columns along each of the two sampled axes of the quality figures; 0: the library's
+    /// choice. Default 0.
+    pub quality_columns: u32,
+    /// For each of these distances, count the most spheres that one plane touches within it
+    /// (caller's unit); NULL with a count of 0: none. Copied before the call returns.
+    pub plane_tolerances: *const f64,
+    /// Number of plane_tolerances. Default 0.
+    pub plane_tolerance_count: usize,
+    /// Called now and then on the calling thread; NULL: none.
+    pub progress: morula_progress,
+    /// Handed to `progress`.
+    pub user: *mut c_void,
+}
+
+/// What was found in an input and what was done about it. Lengths, areas and
+/// volumes are in the caller's unit and frame.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_report {
+    /// sizeof(morula_report), set by the caller.
+    pub struct_size: usize,
+    /// Vertices as handed in.
+    pub input_vertices: u64,
+    /// Triangles as handed in, after polygons were cut into triangles.
+    pub input_faces: u64,
+    /// Vertices after welding; 0 for voxels.
+    pub vertices: u64,
+    /// Triangles kept; 0 for voxels.
+    pub faces: u64,
+    /// Solid cells; 0 for meshes.
+    pub solid_cells: u64,
+    /// Connected surfaces (meshes) or face-connected bodies (voxels), before the choice of bodies.
+    pub components: u64,
+    /// Disconnected bodies (a cavity belongs to the body around it), before the choice of bodies.
+    pub bodies: u64,
+    /// Bodies dropped by MORULA_BODIES_LARGEST.
+    pub bodies_dropped: u64,
+    /// Triangles turned by the repair of orientation (not counting a whole inversion).
+    pub faces_turned: u64,
+    /// Edges with one triangle, after welding.
+    pub boundary_edges: u64,
+    /// Edges with more than two triangles, after welding.
+    pub nonmanifold_edges: u64,
+    /// Triangles without area, dropped.
+    pub degenerate_faces: u64,
+    /// Triangles present more than once, dropped.
+    pub duplicate_faces: u64,
+    /// Vertices welded to another.
+    pub welded_vertices: u64,
+    /// 1 when every edge has exactly two triangles after repair.
+    pub watertight: i32,
+    /// 1 when neighbouring triangles agree in orientation after repair.
+    pub oriented: i32,
+    /// 1 when the whole input was inside out, and was turned.
+    pub inverted: i32,
+    /// 1 when solid cells touch the border of the array (voxels).
+    pub touches_border: i32,
+    /// Volume inside the surface after repair, or of the solid cells.
+    pub volume: f64,
+    /// Area of the surface, or of the cells' outer faces.
+    pub area: f64,
+    /// Lower corner of the bounding box.
+    pub box_min: [f64; 3],
+    /// Upper corner of the bounding box.
+    pub box_max: [f64; 3],
+    /// The length unit that was applied to the coordinates.
+    pub length_unit: f64,
+    /// Threshold used on a grey volume; 0 when none was.
+    pub threshold: f64,
+}
+
+/// Mass, centre and inertia of a target, always in the input frame.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_moments {
+    /// sizeof(morula_moments), set by the caller.
+    pub struct_size: usize,
+    /// Volume.
+    pub volume: f64,
+    /// Volume times the density.
+    pub mass: f64,
+    /// Centre of mass.
+    pub centre: [f64; 3],
+    /// Inertia about the centre: xx, yy, zz, xy, xz, yz; the products carry their sign, xy =
+    /// -integral of x y dm.
+    pub inertia: [f64; 6],
+    /// Principal moments, ascending: the inertia in the body frame.
+    pub principal: [f64; 3],
+    /// Rotation from body to input frame, by columns: the first three numbers are the first
+    /// body axis in the input frame. Right-handed.
+    pub rotation: [f64; 9],
+    /// The same rotation as a quaternion w, x, y, z with w >= 0.
+    pub quaternion: [f64; 4],
+    /// Bound on the relative error of the volume; 0 for exact integrals (up to rounding).
+    pub relative_error: f64,
+}
+
+/// How far the union of the spheres C is from the target S, by volume.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_overlap {
+    /// sizeof(morula_overlap), set by the caller.
+    pub struct_size: usize,
+    /// Mismatch D = 1 - 2|S and C| / (|S| + |C|).
+    pub mismatch: f64,
+    /// Bound on the error of D from the sampling.
+    pub error_bound: f64,
+    /// eta = (|S without C| + |C without S|) / |S|.
+    pub eta: f64,
+    /// Intersection over union.
+    pub iou: f64,
+    /// |S and C| / |S|.
+    pub coverage: f64,
+    /// |C without S| / |S|.
+    pub overshoot: f64,
+    /// Volume of the target by the same sampling.
+    pub target_volume: f64,
+    /// Volume of the union of the spheres.
+    pub union_volume: f64,
+    /// Union volume over target volume, less one.
+    pub volume_error: f64,
+    /// Distance between the centroids over the target's equivalent diameter.
+    pub centroid_error: f64,
+    /// Each principal moment of the union over the target's, less one.
+    pub moment_errors: [f64; 3],
+}
+
+/// How far the surface of the clump is from the target's. Lengths in the caller's unit.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_surface {
+    /// sizeof(morula_surface), set by the caller.
+    pub struct_size: usize,
+    /// How far the union reaches beyond the target's surface.
+    pub protrusion: f64,
+    /// RMS distance between the two surfaces.
+    pub rms_distance: f64,
+    /// Hausdorff distance between the two surfaces.
+    pub hausdorff: f64,
+    /// RMS angle between the normals of clump and target, radians.
+    pub roughness: f64,
+    /// Surface samples used.
+    pub samples: u64,
+    /// Spheres that no direction exposes.
+    pub never_exposed: u32,
+    /// 0.
+    pub reserved: u32,
+}
+
+/// What a call did; zero for work that was not asked for.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_counters {
+    /// sizeof(morula_counters), set by the caller.
+    pub struct_size: usize,
+    /// Wall-clock seconds of reading.
+    pub seconds_read: f64,
+    /// Wall-clock seconds of checks and repair.
+    pub seconds_check: f64,
+    /// Wall-clock seconds of grid, inside test and distances.
+    pub seconds_solid: f64,
+    /// Wall-clock seconds of the method.
+    pub seconds_generate: f64,
+    /// Wall-clock seconds of the quality figures.
+    pub seconds_measure: f64,
+    /// Wall-clock seconds of the moments.
+    pub seconds_moments: f64,
+    /// Grid cells made.
+    pub cells: u64,
+    /// Greatest number of bytes that the large arrays held at once (from their sizes).
+    pub peak_bytes: u64,
+    /// Distance transforms run.
+    pub transforms: u64,
+    /// Exact distances to the surface asked for.
+    pub exact_distances: u64,
+    /// Local maxima looked at.
+    pub maxima: u64,
+    /// Spheres tried.
+    pub spheres_tried: u64,
+    /// Columns measured.
+    pub columns: u64,
+}
+
+macro_rules! versioned {
+    ($name:ident, $first:expr, $defaults:expr) => {
+        unsafe impl Versioned for $name {
+            const NAME: &'static str = stringify!($name);
+            const FIRST: usize = $first;
+            fn defaults() -> Self {
+                $defaults
+            }
+        }
+        // On 64-bit systems, where sizes are part of the promise.
+        #[cfg(target_pointer_width = "64")]
+        const _: () = assert!(size_of::<$name>() >= $first);
+    };
+}
+
+versioned!(
+    morula_import_options,
+    64,
+    morula_import_options {
+        struct_size: size_of::<Self>(),
+        weld_tolerance: 1e-6,
+        length_unit: 1.0,
+        memory_limit: 2 << 30,
+        bodies: MORULA_BODIES_REFUSE,
+        index_base: 0,
+        threads: 1,
+        reserved: 0,
+        progress: None,
+        user: std::ptr::null_mut(),
+    }
+);
+versioned!(
+    morula_file_options,
+    120,
+    morula_file_options {
+        struct_size: size_of::<Self>(),
+        format: MORULA_FORMAT_AUTO,
+        meaning: MORULA_MEANING_AUTO,
+        threshold: 0.0,
+        label: 1,
+        npy_xyz: 0,
+        spacing: [1.0; 3],
+        origin: [0.0; 3],
+        raw_dims: [0; 3],
+        raw_skip: 0,
+        raw_type: MORULA_RAW_U8,
+        reserved: 0,
+    }
+);
+versioned!(
+    morula_solid_options,
+    56,
+    morula_solid_options {
+        struct_size: size_of::<Self>(),
+        resolution: MORULA_RESOLUTION_CELLS_LONGEST,
+        cells: 64,
+        cell_size: 0.0,
+        memory_limit: 2 << 30,
+        padding: 4,
+        threads: 1,
+        progress: None,
+        user: std::ptr::null_mut(),
+    }
+);
+versioned!(
+    morula_clump_options,
+    120,
+    morula_clump_options {
+        struct_size: size_of::<Self>(),
+        spheres: 50,
+        mismatch: 0.0,
+        min_radius: 0.0,
+        min_distance: 0.0,
+        radius_offset: 0.0,
+        deadline_seconds: 0.0,
+        seed: 0,
+        method: MORULA_METHOD_MSS,
+        confine: 0,
+        threads: 1,
+        frame: MORULA_FRAME_INPUT,
+        wants: MORULA_WANT_MOMENTS,
+        quality_columns: 0,
+        plane_tolerances: std::ptr::null(),
+        plane_tolerance_count: 0,
+        progress: None,
+        user: std::ptr::null_mut(),
+    }
+);
+/// All-zero structs: every field of these is a number.
+macro_rules! filled {
+    ($($name:ident $first:expr),*) => {$(
+        versioned!($name, $first, unsafe { std::mem::zeroed() });
+    )*};
+}
+filled!(
+    morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 56,
+    morula_counters 112
+);
+
+#[cfg(all(test, target_pointer_width = "64"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sizes_of_the_first_release_are_those_of_the_structs_or_less() {
+        // Equal while nothing was appended: then an end belongs into ADDED.
+        assert_eq!(size_of::<morula_import_options>(), morula_import_options::FIRST);
+        assert_eq!(size_of::<morula_file_options>(), morula_file_options::FIRST);
+        assert_eq!(size_of::<morula_solid_options>(), morula_solid_options::FIRST);
+        assert_eq!(size_of::<morula_clump_options>(), morula_clump_options::FIRST);
+        assert_eq!(size_of::<morula_report>(), morula_report::FIRST);
+        assert_eq!(size_of::<morula_moments>(), morula_moments::FIRST);
+        assert_eq!(size_of::<morula_overlap>(), morula_overlap::FIRST);
+        assert_eq!(size_of::<morula_surface>(), morula_surface::FIRST);
+        assert_eq!(size_of::<morula_counters>(), morula_counters::FIRST);
+    }
+}

@@ -1,0 +1,269 @@
+//! Shapes from arrays of voxels: masks, grey volumes, labels.
+
+use super::guard::{array_or, copy_out, guard, require, slice};
+use super::shape::{give_shape, import, morula_shape, put};
+use super::structs::morula_import_options;
+use crate::error::{Error, Result};
+use crate::shape::voxels::{Grey, Threshold, list_labels};
+use crate::shape::{Layout, Shape};
+
+/// Spacing and origin as the library wants them.
+pub(super) fn check_layout(spacing: [f64; 3], origin: [f64; 3]) -> Result<()> {
+    for (axis, name) in ["x", "y", "z"].iter().enumerate() {
+        if !(spacing[axis].is_finite() && spacing[axis] > 0.0) {
+            return Err(Error::InvalidArgument(format!(
+                "spacing along {name} is {}, not a number greater than 0",
+                spacing[axis]
+            )));
+        }
+        if !origin[axis].is_finite() {
+            return Err(Error::NotFinite(format!("origin along {name} is {}", origin[axis])));
+        }
+    }
+    Ok(())
+}
+
+/// A threshold that is a number.
+pub(super) fn above(threshold: f64) -> Result<Threshold> {
+    if threshold.is_finite() {
+        return Ok(Threshold::Above(threshold));
+    }
+    Err(Error::NotFinite(format!("threshold is {threshold}")))
+}
+
+unsafe fn layout(dims: *const usize, spacing: *const f64, origin: *const f64) -> Result<Layout> {
+    require(dims, "dims")?;
+    let dims = unsafe { array_or(dims, [0; 3], "dims")? };
+    let spacing = unsafe { array_or(spacing, [1.0; 3], "spacing")? };
+    let origin = unsafe { array_or(origin, [0.0; 3], "origin")? };
+    check_layout(spacing, origin)?;
+    Ok(Layout { dims, spacing, origin })
+}
+
+/// The caller's voxels, as many as `dims` says.
+unsafe fn cells<'a, T>(pointer: *const T, dims: [usize; 3], name: &str) -> Result<&'a [T]> {
+    let count = dims.iter().try_fold(1usize, |n, &d| n.checked_mul(d)).ok_or_else(|| {
+        Error::TooLarge(format!("dims {dims:?} are more cells than memory can address"))
+    })?;
+    unsafe { slice(pointer, count, name) }
+}
+
+/// Makes a shape from a mask of voxels: those that are not 0 are solid.
+///
+/// Parameters: `mask` holds dims[0] dims[1] dims[2] bytes with x fastest: the
+/// cell (i, j, k) is mask[i + dims[0] (j + dims[1] k)] and covers origin +
+/// [i, i+1] x [j, j+1] x [k, k+1] times spacing. `dims` holds the numbers of
+/// cells along x, y, z; `spacing` the edge lengths of a cell (NULL: 1, 1, 1);
+/// `origin` the lower corner of the first cell (NULL: 0, 0, 0). No empty border
+/// is needed. `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (spacing or an
+/// option); NOT_FINITE (origin); EMPTY; SEVERAL_BODIES; STRUCT_SIZE; TOO_LARGE;
+/// MEMORY_LIMIT; OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Ownership: the arrays are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_from_mask(
+    mask: *const u8,
+    dims: *const usize,
+    spacing: *const f64,
+    origin: *const f64,
+    options: *const morula_import_options,
+    shape: *mut *mut morula_shape,
+) -> i32 {
+    guard(|| {
+        require(shape, "shape")?;
+        let (import, run, _) = unsafe { import(options)? };
+        let layout = unsafe { layout(dims, spacing, origin)? };
+        let mask = unsafe { cells(mask, layout.dims, "mask")? };
+        let made = Shape::from_mask(mask, &layout, &import, &run)?;
+        unsafe { give_shape(shape, made) };
+        Ok(())
+    })
+}
+
+unsafe fn grey(
+    values: Grey,
+    layout: &Layout,
+    threshold: *const f64,
+    options: *const morula_import_options,
+    shape: *mut *mut morula_shape,
+) -> Result<()> {
+    let (import, run, _) = unsafe { import(options)? };
+    let threshold = if threshold.is_null() {
+        Threshold::Otsu
+    } else {
+        above(unsafe { array_or(threshold, [0.0], "threshold")? }[0])?
+    };
+    let made = Shape::from_grey(values, layout, threshold, &import, &run)?;
+    unsafe { give_shape(shape, made) };
+    Ok(())
+}
+
+/// Makes a shape from a grey volume of 8 bits.
+///
+/// Parameters: `values`, `dims`, `spacing`, `origin`, `options` as
+/// morula_shape_from_mask(); cells greater than *threshold are solid, NULL
+/// means Otsu's threshold.
+/// Returns: as morula_shape_from_mask(); NOT_FINITE also for the threshold.
+/// Ownership: the arrays are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_from_grey_u8(
+    values: *const u8,
+    dims: *const usize,
+    spacing: *const f64,
+    origin: *const f64,
+    threshold: *const f64,
+    options: *const morula_import_options,
+    shape: *mut *mut morula_shape,
+) -> i32 {
+    guard(|| {
+        require(shape, "shape")?;
+        let layout = unsafe { layout(dims, spacing, origin)? };
+        let values = Grey::U8(unsafe { cells(values, layout.dims, "values")? });
+        unsafe { grey(values, &layout, threshold, options, shape) }
+    })
+}
+
+/// Makes a shape from a grey volume of 16 bits.
+///
+/// Parameters, returns, ownership, threads: as morula_shape_from_grey_u8().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_from_grey_u16(
+    values: *const u16,
+    dims: *const usize,
+    spacing: *const f64,
+    origin: *const f64,
+    threshold: *const f64,
+    options: *const morula_import_options,
+    shape: *mut *mut morula_shape,
+) -> i32 {
+    guard(|| {
+        require(shape, "shape")?;
+        let layout = unsafe { layout(dims, spacing, origin)? };
+        let values = Grey::U16(unsafe { cells(values, layout.dims, "values")? });
+        unsafe { grey(values, &layout, threshold, options, shape) }
+    })
+}
+
+/// Makes a shape from a grey volume of single precision.
+///
+/// Parameters, returns, ownership, threads: as morula_shape_from_grey_u8();
+/// NOT_FINITE also for a value.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_from_grey_f32(
+    values: *const f32,
+    dims: *const usize,
+    spacing: *const f64,
+    origin: *const f64,
+    threshold: *const f64,
+    options: *const morula_import_options,
+    shape: *mut *mut morula_shape,
+) -> i32 {
+    guard(|| {
+        require(shape, "shape")?;
+        let layout = unsafe { layout(dims, spacing, origin)? };
+        let values = Grey::F32(unsafe { cells(values, layout.dims, "values")? });
+        unsafe { grey(values, &layout, threshold, options, shape) }
+    })
+}
+
+/// Makes a shape from one label of a label volume.
+///
+/// Parameters: `labels`, `dims`, `spacing`, `origin`, `options` as
+/// morula_shape_from_mask(); the cells that hold `label` are solid. The report
+/// says whether they touch the border of the array.
+/// Returns: as morula_shape_from_mask(); INDEX_OUT_OF_RANGE when no cell holds the label;
+/// INVALID_ARGUMENT for label 0, which is background.
+/// Ownership: the arrays are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_from_label(
+    labels: *const u32,
+    dims: *const usize,
+    spacing: *const f64,
+    origin: *const f64,
+    label: u32,
+    options: *const morula_import_options,
+    shape: *mut *mut morula_shape,
+) -> i32 {
+    guard(|| {
+        require(shape, "shape")?;
+        let (import, run, _) = unsafe { import(options)? };
+        let layout = unsafe { layout(dims, spacing, origin)? };
+        let labels = unsafe { cells(labels, layout.dims, "labels")? };
+        let made = Shape::from_label(labels, &layout, label, &import, &run)?;
+        unsafe { give_shape(shape, made) };
+        Ok(())
+    })
+}
+
+/// How many labels other than 0 a label volume holds.
+///
+/// Parameters: `labels` and `dims` as morula_shape_from_label().
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; TOO_LARGE; EMPTY (no cell);
+/// OUT_OF_MEMORY; INTERNAL.
+/// Threads: any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_labels_count(
+    labels: *const u32,
+    dims: *const usize,
+    count: *mut usize,
+) -> i32 {
+    guard(|| {
+        require(count, "count")?;
+        let layout = unsafe { layout(dims, std::ptr::null(), std::ptr::null())? };
+        let labels = unsafe { cells(labels, layout.dims, "labels")? };
+        unsafe { put(count, list_labels(labels, &layout)?.len(), "count") }
+    })
+}
+
+/// Lists the labels of a label volume, ascending, without 0.
+///
+/// Parameters: `labels` and `dims` as morula_shape_from_label(); each of the
+/// arrays may be NULL when it is not asked for, the others have room for
+/// `capacity` labels: `ids` the labels, `cells` their numbers of cells, `boxes`
+/// six numbers each (the first cell along x, y, z and the last, inclusive),
+/// `touches_border` 1 where the label touches the border of the array, so that
+/// the particle may be cut off.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is
+/// written); TOO_LARGE; EMPTY (no cell); OUT_OF_MEMORY; INTERNAL.
+/// Threads: any thread.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_labels_copy(
+    labels: *const u32,
+    dims: *const usize,
+    capacity: usize,
+    ids: *mut u32,
+    cells: *mut u64,
+    boxes: *mut u64,
+    touches_border: *mut i32,
+) -> i32 {
+    guard(|| {
+        let layout = unsafe { layout(dims, std::ptr::null(), std::ptr::null())? };
+        let labels = unsafe { self::cells(labels, layout.dims, "labels")? };
+        let all = list_labels(labels, &layout)?;
+        if capacity < all.len() {
+            return Err(Error::BufferTooSmall(format!(
+                "the arrays have room for {capacity} of {} labels",
+                all.len()
+            )));
+        }
+        unsafe fn each<T: Copy>(to: *mut T, from: Vec<T>, name: &str) -> Result<()> {
+            match to.is_null() {
+                true => Ok(()),
+                false => unsafe { copy_out(&from, from.len(), to, name) },
+            }
+        }
+        let corners = all.iter().flat_map(|l| l.first.into_iter().chain(l.last));
+        unsafe {
+            each(ids, all.iter().map(|l| l.label).collect(), "ids")?;
+            each(cells, all.iter().map(|l| l.cells).collect(), "cells")?;
+            each(boxes, corners.map(|v| v as u64).collect(), "boxes")?;
+            each(touches_border, all.iter().map(|l| l.touches_border.into()).collect(), "flags")
+        }
+    })
+}
