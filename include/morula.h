@@ -1,0 +1,1111 @@
+/* Morula: the shape of a particle as a clump of overlapping spheres.
+ *
+ * This file is generated from src/ffi; do not edit it.
+ *
+ * Status. Every function that can fail returns an int32_t: MORULA_STATUS_OK (0)
+ * or another MORULA_STATUS_*; morula_last_error_message() then holds one
+ * sentence with the value and index at fault. What a function gives back is
+ * written only on success.
+ *
+ * Ownership. morula_shape, morula_solid and morula_clump are made by the library
+ * and taken back by their _free function, which ignores NULL. Arrays and strings
+ * that you hand in are copied before the call returns. Results are copied into
+ * your arrays; nothing points into the library but the texts of the _name and
+ * _version functions and the last message.
+ *
+ * Structs begin with struct_size = sizeof(the struct). Options are filled by
+ * their _init function; NULL options are the defaults. Programs compiled with an
+ * older or newer header keep working: fields are only ever appended.
+ *
+ * Threads. Functions that take a const handle may run at the same time on one
+ * handle; others need it for themselves; different handles are independent. A
+ * call works on its own threads, 1 unless the options say otherwise, and all of
+ * them have ended when it returns. Callbacks are called only on the thread that
+ * made the call. Results are the same bytes for any number of threads.
+ *
+ * Layouts. Points x, y, z; spheres x, y, z, r; inertia xx, yy, zz, xy, xz, yz
+ * with the products as they stand in the tensor (xy = -integral of x y dm); a
+ * rotation by columns, which are the body axes in the input frame; quaternions
+ * w, x, y, z from body to input with w >= 0; voxels with x fastest.
+ *
+ * Units. The library knows none: lengths are in your unit, a density is mass per
+ * (that length)^3.
+ */
+
+#ifndef MORULA_H
+#define MORULA_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The version of this header; morula_version() is that of the library. */
+#define MORULA_VERSION_MAJOR 0
+#define MORULA_VERSION_MINOR 1
+#define MORULA_VERSION_PATCH 0
+#define MORULA_VERSION_STRING "0.1.0"
+#define MORULA_VERSION \
+  (1000000u * MORULA_VERSION_MAJOR + 1000u * MORULA_VERSION_MINOR + MORULA_VERSION_PATCH)
+
+/// The call did what it was asked.
+#define MORULA_STATUS_OK 0
+
+/// A pointer that must not be NULL is NULL.
+#define MORULA_STATUS_NULL_POINTER 1
+
+/// An option or argument lies outside its range.
+#define MORULA_STATUS_INVALID_ARGUMENT 2
+
+/// A coordinate or value is NaN or infinite.
+#define MORULA_STATUS_NOT_FINITE 3
+
+/// A triangle, label or sphere index does not exist.
+#define MORULA_STATUS_INDEX_OUT_OF_RANGE 4
+
+/// There is nothing to work on: no face, no solid cell.
+#define MORULA_STATUS_EMPTY 5
+
+/// The shape has no volume.
+#define MORULA_STATUS_ZERO_VOLUME 6
+
+/// The surface is so open that its inside is not defined.
+#define MORULA_STATUS_OPEN_SURFACE 7
+
+/// The shape is several disconnected bodies and the choice was to refuse.
+#define MORULA_STATUS_SEVERAL_BODIES 8
+
+/// A file is malformed or truncated, or its header lies.
+#define MORULA_STATUS_FORMAT 9
+
+/// A file or request of a kind that this build does not handle.
+#define MORULA_STATUS_UNSUPPORTED 10
+
+/// The operating system refused to read or write.
+#define MORULA_STATUS_IO 11
+
+/// The work would take more memory than the option allows.
+#define MORULA_STATUS_MEMORY_LIMIT 12
+
+/// The system has no memory left for a reservation.
+#define MORULA_STATUS_OUT_OF_MEMORY 13
+
+/// The caller's array is too short; nothing was written to it.
+#define MORULA_STATUS_BUFFER_TOO_SMALL 14
+
+/// The progress callback asked to stop before there was a result.
+#define MORULA_STATUS_CANCELLED 15
+
+/// A struct's struct_size is one that this library does not know, or bytes that it does not know are not zero.
+#define MORULA_STATUS_STRUCT_SIZE 16
+
+/// A count is larger than the library can index.
+#define MORULA_STATUS_TOO_LARGE 17
+
+/// The value asked for was not among the wants of the call that made the clump.
+#define MORULA_STATUS_NOT_WANTED 18
+
+/// No sphere satisfies the constraints.
+#define MORULA_STATUS_NO_SPHERES 19
+
+/// A defect of the library itself: please report it.
+#define MORULA_STATUS_INTERNAL 20
+
+/// Log level: what a call did.
+#define MORULA_LOG_INFO 0
+
+/// Log level: something in the input that a user should know.
+#define MORULA_LOG_WARNING 1
+
+/// morula_import_options, for morula_sizeof().
+#define MORULA_STRUCT_IMPORT_OPTIONS 1
+
+/// morula_file_options, for morula_sizeof().
+#define MORULA_STRUCT_FILE_OPTIONS 2
+
+/// morula_solid_options, for morula_sizeof().
+#define MORULA_STRUCT_SOLID_OPTIONS 3
+
+/// morula_clump_options, for morula_sizeof().
+#define MORULA_STRUCT_CLUMP_OPTIONS 4
+
+/// morula_report, for morula_sizeof().
+#define MORULA_STRUCT_REPORT 5
+
+/// morula_moments, for morula_sizeof().
+#define MORULA_STRUCT_MOMENTS 6
+
+/// morula_overlap, for morula_sizeof().
+#define MORULA_STRUCT_OVERLAP 7
+
+/// morula_surface, for morula_sizeof().
+#define MORULA_STRUCT_SURFACE 8
+
+/// morula_counters, for morula_sizeof().
+#define MORULA_STRUCT_COUNTERS 9
+
+/// Refuse a shape of several disconnected bodies, with the count (the default).
+#define MORULA_BODIES_REFUSE 0
+
+/// Keep the body of greatest volume; the notes say what was dropped.
+#define MORULA_BODIES_LARGEST 1
+
+/// Keep all bodies as one particle.
+#define MORULA_BODIES_ALL 2
+
+/// Tell the format of a file by its content, then by its name (the default).
+#define MORULA_FORMAT_AUTO 0
+
+/// STL, ascii or binary.
+#define MORULA_FORMAT_STL 1
+
+/// Wavefront OBJ.
+#define MORULA_FORMAT_OBJ 2
+
+/// PLY, ascii or binary.
+#define MORULA_FORMAT_PLY 3
+
+/// OFF, COFF, NOFF.
+#define MORULA_FORMAT_OFF 4
+
+/// NumPy array.
+#define MORULA_FORMAT_NPY 5
+
+/// Multi-page TIFF.
+#define MORULA_FORMAT_TIFF 6
+
+/// Raw voxels: the raw_ fields of the options describe them.
+#define MORULA_FORMAT_RAW 7
+
+/// Voxel files: two values are a mask, more are grey values with Otsu's threshold (the default).
+#define MORULA_MEANING_AUTO 0
+
+/// Voxel files: grey values, solid above Otsu's threshold.
+#define MORULA_MEANING_OTSU 1
+
+/// Voxel files: grey values, solid above the option `threshold`.
+#define MORULA_MEANING_ABOVE 2
+
+/// Voxel files: labels, of which the option `label` is taken.
+#define MORULA_MEANING_LABEL 3
+
+/// Raw voxels of 8 bits, unsigned.
+#define MORULA_RAW_U8 0
+
+/// Raw voxels of 16 bits, unsigned, little-endian.
+#define MORULA_RAW_U16 1
+
+/// Raw voxels of 32 bits, floating point, little-endian.
+#define MORULA_RAW_F32 2
+
+/// `cells` along the longest edge of the bounding box (the default, 64).
+#define MORULA_RESOLUTION_CELLS_LONGEST 0
+
+/// `cells` along the shortest edge of the bounding box.
+#define MORULA_RESOLUTION_CELLS_SHORTEST 1
+
+/// `cells` along the diameter of the sphere of equal volume.
+#define MORULA_RESOLUTION_CELLS_DIAMETER 2
+
+/// Cells of the edge length `cell_size`.
+#define MORULA_RESOLUTION_CELL_SIZE 3
+
+/// MSS: local maxima of the distance transform, iterated (the default).
+#define MORULA_METHOD_MSS 0
+
+/// Spheres in the frame in which the shape was handed in (the default).
+#define MORULA_FRAME_INPUT 0
+
+/// Spheres in the body frame: origin at the centre of mass, axes principal.
+#define MORULA_FRAME_BODY 1
+
+/// Want nothing but the spheres.
+#define MORULA_WANT_NOTHING 0
+
+/// Want morula_clump_overlap(): D, coverage, union volume and moments.
+#define MORULA_WANT_OVERLAP 1
+
+/// Want morula_clump_surface() and exposed areas: protrusion, distances, roughness.
+#define MORULA_WANT_SURFACE 2
+
+/// Want morula_clump_moments(): mass, centre, inertia of the target (the default).
+#define MORULA_WANT_MOMENTS 4
+
+/// The number of spheres asked for was reached.
+#define MORULA_STOPPED_SPHERES 0
+
+/// The mismatch asked for was reached.
+#define MORULA_STOPPED_MISMATCH 1
+
+/// Every further sphere would be smaller than the least radius.
+#define MORULA_STOPPED_RADIUS 2
+
+/// The deadline passed.
+#define MORULA_STOPPED_DEADLINE 3
+
+/// The progress callback cancelled; the clump holds the spheres found so far.
+#define MORULA_STOPPED_CANCELLED 4
+
+/// The method finds no further sphere that brings the clump closer; the note says why.
+#define MORULA_STOPPED_EXHAUSTED 5
+
+/// A clump: spheres and what was measured on them. Made by
+/// morula_clump_from_shape() or morula_clump_from_solid(), freed by
+/// morula_clump_free(). It needs neither shape nor solid any more.
+typedef struct morula_clump morula_clump;
+
+/// A checked shape: something with an inside. Made by the morula_shape_from_
+/// functions, freed by morula_shape_free().
+typedef struct morula_shape morula_shape;
+
+/// A shape with a grid. Made by morula_solid_from_shape(), freed by
+/// morula_solid_free(). It does not need its shape any more.
+typedef struct morula_solid morula_solid;
+
+/// Receives one line of log: `level` is one of MORULA_LOG_*, `text` lives until
+/// the sink returns. Called on the thread that made the call, maybe from
+/// several threads at the same time when several threads make calls. It must
+/// return normally: no exception, no longjmp.
+typedef void (*morula_log)(int32_t level, const char *text, void *user);
+
+/// Called now and then during a long call, only on the thread that made the
+/// call, with a fraction in [0, 1] that never falls. Return 0 to go on, any
+/// other number to cancel: then the call returns MORULA_STATUS_CANCELLED, or,
+/// when a clump has spheres already, MORULA_STATUS_OK with what there is and
+/// MORULA_STOPPED_CANCELLED. It must return normally: no exception, no longjmp.
+typedef int32_t (*morula_progress)(double fraction, void *user);
+
+/// How a shape is taken in. Fill it with morula_import_options_init().
+typedef struct morula_import_options {
+  /// sizeof(morula_import_options).
+  size_t struct_size;
+  /// Vertices nearer than this times the longest edge of the bounding box are one.
+  /// Default 1e-6; 0: only equal ones.
+  double weld_tolerance;
+  /// Coordinates are multiplied by it (0.001 takes millimetres to metres). Default 1.
+  double length_unit;
+  /// Most bytes that the shape's arrays may take. Default 2 GiB.
+  uint64_t memory_limit;
+  /// One of MORULA_BODIES_*. Default MORULA_BODIES_REFUSE.
+  int32_t bodies;
+  /// 0 or 1: the index of the first vertex in an array of triangles. Default 0.
+  int32_t index_base;
+  /// Threads of this call; 0: all cores. Default 1.
+  int32_t threads;
+  /// Must be 0.
+  int32_t reserved;
+  /// Called now and then on the calling thread; NULL: none.
+  morula_progress progress;
+  /// Handed to `progress`.
+  void *user;
+} morula_import_options;
+
+/// What was found in an input and what was done about it. Lengths, areas and
+/// volumes are in the caller's unit and frame.
+typedef struct morula_report {
+  /// sizeof(morula_report), set by the caller.
+  size_t struct_size;
+  /// Vertices as handed in.
+  uint64_t input_vertices;
+  /// Triangles as handed in, after polygons were cut into triangles.
+  uint64_t input_faces;
+  /// Vertices after welding; 0 for voxels.
+  uint64_t vertices;
+  /// Triangles kept; 0 for voxels.
+  uint64_t faces;
+  /// Solid cells; 0 for meshes.
+  uint64_t solid_cells;
+  /// Connected surfaces (meshes) or face-connected bodies (voxels), before the choice of bodies.
+  uint64_t components;
+  /// Disconnected bodies (a cavity belongs to the body around it), before the choice of bodies.
+  uint64_t bodies;
+  /// Bodies dropped by MORULA_BODIES_LARGEST.
+  uint64_t bodies_dropped;
+  /// Triangles turned by the repair of orientation (not counting a whole inversion).
+  uint64_t faces_turned;
+  /// Edges with one triangle, after welding.
+  uint64_t boundary_edges;
+  /// Edges with more than two triangles, after welding.
+  uint64_t nonmanifold_edges;
+  /// Triangles without area, dropped.
+  uint64_t degenerate_faces;
+  /// Triangles present more than once, dropped.
+  uint64_t duplicate_faces;
+  /// Vertices welded to another.
+  uint64_t welded_vertices;
+  /// 1 when every edge has exactly two triangles after repair.
+  int32_t watertight;
+  /// 1 when neighbouring triangles agree in orientation after repair.
+  int32_t oriented;
+  /// 1 when the whole input was inside out, and was turned.
+  int32_t inverted;
+  /// 1 when solid cells touch the border of the array (voxels).
+  int32_t touches_border;
+  /// Volume inside the surface after repair, or of the solid cells.
+  double volume;
+  /// Area of the surface, or of the cells' outer faces.
+  double area;
+  /// Lower corner of the bounding box.
+  double box_min[3];
+  /// Upper corner of the bounding box.
+  double box_max[3];
+  /// The length unit that was applied to the coordinates.
+  double length_unit;
+  /// Threshold used on a grey volume; 0 when none was.
+  double threshold;
+} morula_report;
+
+/// Mass, centre and inertia of a target, always in the input frame.
+typedef struct morula_moments {
+  /// sizeof(morula_moments), set by the caller.
+  size_t struct_size;
+  /// Volume.
+  double volume;
+  /// Volume times the density.
+  double mass;
+  /// Centre of mass.
+  double centre[3];
+  /// Inertia about the centre: xx, yy, zz, xy, xz, yz; the products carry their sign, xy =
+  /// -integral of x y dm.
+  double inertia[6];
+  /// Principal moments, ascending: the inertia in the body frame.
+  double principal[3];
+  /// Rotation from body to input frame, by columns: the first three numbers are the first
+  /// body axis in the input frame. Right-handed.
+  double rotation[9];
+  /// The same rotation as a quaternion w, x, y, z with w >= 0.
+  double quaternion[4];
+  /// Bound on the relative error of the volume; 0 for exact integrals (up to rounding).
+  double relative_error;
+} morula_moments;
+
+/// How a file is read, beside morula_import_options. Fill it with morula_file_options_init().
+typedef struct morula_file_options {
+  /// sizeof(morula_file_options).
+  size_t struct_size;
+  /// One of MORULA_FORMAT_*. Default MORULA_FORMAT_AUTO.
+  int32_t format;
+  /// One of MORULA_MEANING_*, for voxel files. Default MORULA_MEANING_AUTO.
+  int32_t meaning;
+  /// Grey values above it are solid (MORULA_MEANING_ABOVE). Default 0.
+  double threshold;
+  /// The label that is taken (MORULA_MEANING_LABEL). Default 1.
+  uint32_t label;
+  /// 0: an npy array of shape (a, b, c) has axes z, y, x; 1: x, y, z. Default 0.
+  int32_t npy_xyz;
+  /// Edge lengths of a voxel along x, y, z, before length_unit. Default 1, 1, 1.
+  double spacing[3];
+  /// Lower corner of the first voxel, before length_unit. Default 0, 0, 0.
+  double origin[3];
+  /// Raw voxels along x, y, z; x is fastest.
+  uint64_t raw_dims[3];
+  /// Bytes before the first raw voxel. Default 0.
+  uint64_t raw_skip;
+  /// One of MORULA_RAW_*. Default MORULA_RAW_U8.
+  int32_t raw_type;
+  /// Must be 0.
+  int32_t reserved;
+} morula_file_options;
+
+/// How a solid is made. Fill it with morula_solid_options_init().
+typedef struct morula_solid_options {
+  /// sizeof(morula_solid_options).
+  size_t struct_size;
+  /// One of MORULA_RESOLUTION_*. Default MORULA_RESOLUTION_CELLS_LONGEST. Voxel shapes keep
+  /// their own cells.
+  int32_t resolution;
+  /// Number of cells for the MORULA_RESOLUTION_CELLS_* kinds. Default 64.
+  uint32_t cells;
+  /// Edge length of a cell for MORULA_RESOLUTION_CELL_SIZE. Default 0.
+  double cell_size;
+  /// Most bytes that the grid's arrays may take together. Default 2 GiB.
+  uint64_t memory_limit;
+  /// Empty cells around the shape, at least 2. Default 4.
+  uint32_t padding;
+  /// Threads of this call; 0: all cores. Default 1. Not read by morula_clump_from_shape().
+  int32_t threads;
+  /// Called now and then on the calling thread; NULL: none. Not read by morula_clump_from_shape().
+  morula_progress progress;
+  /// Handed to `progress`.
+  void *user;
+} morula_solid_options;
+
+/// What a clump is asked for. Fill it with morula_clump_options_init(). The
+/// criteria (spheres, mismatch, min_radius, deadline_seconds) apply alone or
+/// together: the first that is met stops the method.
+typedef struct morula_clump_options {
+  /// sizeof(morula_clump_options).
+  size_t struct_size;
+  /// Number of spheres; 0: no limit. Default 50.
+  uint64_t spheres;
+  /// Stop at this mismatch D on the method's own grid; 0: no target. Default 0.
+  double mismatch;
+  /// Least radius, in the caller's unit. Default 0.
+  double min_radius;
+  /// Least distance between centres, in cells of the grid. Default 0.
+  double min_distance;
+  /// Added to every radius, in cells of the grid; 0 has no bias. Default 0.
+  double radius_offset;
+  /// Seconds from the start of the call after which the method stops with what it has; 0:
+  /// none. Default 0.
+  double deadline_seconds;
+  /// Seed of every random choice. Default 0.
+  uint64_t seed;
+  /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS.
+  int32_t method;
+  /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
+  int32_t confine;
+  /// Threads of this call; 0: all cores. The spheres do not depend on it. Default 1.
+  int32_t threads;
+  /// One of MORULA_FRAME_*. Default MORULA_FRAME_INPUT.
+  int32_t frame;
+  /// Sum of MORULA_WANT_*. What is not wanted is not computed. Default MORULA_WANT_MOMENTS.
+  uint32_t wants;
+  /// Columns along each of the two sampled axes of the quality figures; 0: the library's
+  /// choice. Default 0.
+  uint32_t quality_columns;
+  /// For each of these distances, count the most spheres that one plane touches within it
+  /// (caller's unit); NULL with a count of 0: none. Copied before the call returns.
+  const double *plane_tolerances;
+  /// Number of plane_tolerances. Default 0.
+  size_t plane_tolerance_count;
+  /// Called now and then on the calling thread; NULL: none.
+  morula_progress progress;
+  /// Handed to `progress`.
+  void *user;
+} morula_clump_options;
+
+/// How far the union of the spheres C is from the target S, by volume.
+typedef struct morula_overlap {
+  /// sizeof(morula_overlap), set by the caller.
+  size_t struct_size;
+  /// Mismatch D = 1 - 2|S and C| / (|S| + |C|).
+  double mismatch;
+  /// Bound on the error of D from the sampling.
+  double error_bound;
+  /// eta = (|S without C| + |C without S|) / |S|.
+  double eta;
+  /// Intersection over union.
+  double iou;
+  /// |S and C| / |S|.
+  double coverage;
+  /// |C without S| / |S|.
+  double overshoot;
+  /// Volume of the target by the same sampling.
+  double target_volume;
+  /// Volume of the union of the spheres.
+  double union_volume;
+  /// Union volume over target volume, less one.
+  double volume_error;
+  /// Distance between the centroids over the target's equivalent diameter.
+  double centroid_error;
+  /// Each principal moment of the union over the target's, less one.
+  double moment_errors[3];
+} morula_overlap;
+
+/// How far the surface of the clump is from the target's. Lengths in the caller's unit.
+typedef struct morula_surface {
+  /// sizeof(morula_surface), set by the caller.
+  size_t struct_size;
+  /// How far the union reaches beyond the target's surface.
+  double protrusion;
+  /// RMS distance between the two surfaces.
+  double rms_distance;
+  /// Hausdorff distance between the two surfaces.
+  double hausdorff;
+  /// RMS angle between the normals of clump and target, radians.
+  double roughness;
+  /// Surface samples used.
+  uint64_t samples;
+  /// Spheres that no direction exposes.
+  uint32_t never_exposed;
+  /// 0.
+  uint32_t reserved;
+} morula_surface;
+
+/// What a call did; zero for work that was not asked for.
+typedef struct morula_counters {
+  /// sizeof(morula_counters), set by the caller.
+  size_t struct_size;
+  /// Wall-clock seconds of reading.
+  double seconds_read;
+  /// Wall-clock seconds of checks and repair.
+  double seconds_check;
+  /// Wall-clock seconds of grid, inside test and distances.
+  double seconds_solid;
+  /// Wall-clock seconds of the method.
+  double seconds_generate;
+  /// Wall-clock seconds of the quality figures.
+  double seconds_measure;
+  /// Wall-clock seconds of the moments.
+  double seconds_moments;
+  /// Grid cells made.
+  uint64_t cells;
+  /// Greatest number of bytes that the large arrays held at once (from their sizes).
+  uint64_t peak_bytes;
+  /// Distance transforms run.
+  uint64_t transforms;
+  /// Exact distances to the surface asked for.
+  uint64_t exact_distances;
+  /// Local maxima looked at.
+  uint64_t maxima;
+  /// Spheres tried.
+  uint64_t spheres_tried;
+  /// Columns measured.
+  uint64_t columns;
+} morula_counters;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/// The version of the library that runs: 1000000 major + 1000 minor + patch.
+///
+/// Returns: the number; it equals MORULA_VERSION when the program runs with the
+/// library whose header it was compiled with.
+/// Threads: any thread at any time. Never fails.
+uint32_t morula_version(void);
+
+/// The version of the library that runs, as text ("0.1.0").
+///
+/// Returns: static text, never NULL; do not free it.
+/// Threads: any thread at any time. Never fails.
+const char *morula_version_string(void);
+
+/// The name of a status ("NOT_FINITE" for MORULA_STATUS_NOT_FINITE).
+///
+/// Returns: static text, never NULL ("UNKNOWN" for a number that is no status); do not free it.
+/// Threads: any thread at any time. Never fails.
+const char *morula_status_name(int32_t status);
+
+/// One sentence on why this thread's last call failed, with the value and index
+/// at fault; empty when it did not fail. Every call clears it on entry, except
+/// the `_free`, `_name`, `_version` and `_sizeof` functions and this one.
+///
+/// Returns: text, never NULL, owned by the library and valid until this
+/// thread's next call of the library; copy it to keep it.
+/// Threads: each thread has its own message. Never fails.
+const char *morula_last_error_message(void);
+
+/// The size that the library gives one of its structs, for programs that are
+/// not written in C to check their own declaration.
+///
+/// Parameters: `which` is one of MORULA_STRUCT_*.
+/// Returns: the size in bytes, 0 for a number that names no struct.
+/// Threads: any thread at any time. Never fails.
+size_t morula_sizeof(int32_t which);
+
+/// Sets where the library's log lines go. There is none at first: the library
+/// never prints.
+///
+/// Parameters: `sink` is called with each line (NULL: no log any more); `user`
+/// is handed to it. Both must stay valid until another sink is set and every
+/// call that was running then has returned.
+/// Returns: MORULA_STATUS_OK.
+/// Threads: any thread; the sink is one for the whole process.
+int32_t morula_set_log(morula_log sink, void *user);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_import_options_init(struct morula_import_options *options,
+                                   size_t size);
+
+/// Makes a shape from a triangle mesh.
+///
+/// The mesh is welded, its defects are repaired where that is safe, and what
+/// was done is in the report. Open meshes are taken while their inside is
+/// defined; a sheet or a single triangle is refused.
+///
+/// Parameters: `vertices` holds x, y, z of `vertex_count` vertices, one after
+/// the other, in the caller's unit and frame; `triangles` holds three vertex
+/// indices for each of `triangle_count` triangles, counter-clockwise seen from
+/// outside, the first vertex being index_base of the options; `options` may be
+/// NULL for the defaults.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (an option);
+/// STRUCT_SIZE; NOT_FINITE (a vertex); INDEX_OUT_OF_RANGE (a triangle); EMPTY;
+/// ZERO_VOLUME; OPEN_SURFACE; SEVERAL_BODIES; TOO_LARGE; MEMORY_LIMIT;
+/// OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Ownership: the arrays are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_from_mesh(const double *vertices,
+                               size_t vertex_count,
+                               const uint32_t *triangles,
+                               size_t triangle_count,
+                               const struct morula_import_options *options,
+                               struct morula_shape **shape);
+
+/// Takes a shape back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_shape_free(struct morula_shape *shape);
+
+/// What was found in the input and what was done about it.
+///
+/// Parameters: `report` is filled; set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_shape_report(const struct morula_shape *shape, struct morula_report *report);
+
+/// How many notes there are on the input: sentences that a user should know.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_shape_note_count(const struct morula_shape *shape, size_t *count);
+
+/// Copies note `index` (from 0) with its closing NUL.
+///
+/// Parameters: `text` has room for `capacity` bytes; `length` (may be NULL)
+/// becomes the length without the NUL. With `text` NULL and `capacity` 0 only
+/// `length` is written.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_shape_copy_note(const struct morula_shape *shape,
+                               size_t index,
+                               size_t capacity,
+                               char *text,
+                               size_t *length);
+
+/// Mass, centre and inertia of a shape, exact for closed meshes and voxels.
+///
+/// Parameters: `density` is mass per (caller's unit)^3; `moments` is filled:
+/// set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INVALID_ARGUMENT (the
+/// density is not a number greater than 0); OUT_OF_MEMORY; INTERNAL.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_shape_moments(const struct morula_shape *shape,
+                             double density,
+                             struct morula_moments *moments);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_file_options_init(struct morula_file_options *options,
+                                 size_t size);
+
+/// Makes a shape from a file: STL, OBJ, PLY, OFF, npy, TIFF or raw voxels.
+///
+/// The format is told by the content, then by the name, unless the options
+/// force one. What a header declares is checked against the file's length
+/// before memory is taken.
+///
+/// Parameters: `path` is the file's name (UTF-8); `import` and `file` may be
+/// NULL for the defaults.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (an option); IO;
+/// FORMAT (with the byte or line); UNSUPPORTED; STRUCT_SIZE; NOT_FINITE;
+/// INDEX_OUT_OF_RANGE; EMPTY; ZERO_VOLUME; OPEN_SURFACE; SEVERAL_BODIES;
+/// TOO_LARGE; MEMORY_LIMIT; OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Ownership: free *shape with morula_shape_free(). *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_from_file(const char *path,
+                               const struct morula_import_options *import,
+                               const struct morula_file_options *file,
+                               struct morula_shape **shape);
+
+/// Makes a shape from the bytes of a file in memory, as morula_shape_from_file().
+///
+/// Parameters: `bytes` holds `count` bytes; `name` is the file's name, which
+/// helps where the content does not tell the format (may be NULL); `import` and
+/// `file` may be NULL for the defaults.
+/// Returns: as morula_shape_from_file(), but never IO.
+/// Ownership: the bytes are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_from_bytes(const uint8_t *bytes,
+                                size_t count,
+                                const char *name,
+                                const struct morula_import_options *import,
+                                const struct morula_file_options *file,
+                                struct morula_shape **shape);
+
+/// Makes a shape from a mask of voxels: those that are not 0 are solid.
+///
+/// Parameters: `mask` holds dims[0] dims[1] dims[2] bytes with x fastest: the
+/// cell (i, j, k) is mask[i + dims[0] (j + dims[1] k)] and covers origin +
+/// [i, i+1] x [j, j+1] x [k, k+1] times spacing. `dims` holds the numbers of
+/// cells along x, y, z; `spacing` the edge lengths of a cell (NULL: 1, 1, 1);
+/// `origin` the lower corner of the first cell (NULL: 0, 0, 0). No empty border
+/// is needed. `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (spacing or an
+/// option); NOT_FINITE (origin); EMPTY; SEVERAL_BODIES; STRUCT_SIZE; TOO_LARGE;
+/// MEMORY_LIMIT; OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Ownership: the arrays are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_from_mask(const uint8_t *mask,
+                               const size_t *dims,
+                               const double *spacing,
+                               const double *origin,
+                               const struct morula_import_options *options,
+                               struct morula_shape **shape);
+
+/// Makes a shape from a grey volume of 8 bits.
+///
+/// Parameters: `values`, `dims`, `spacing`, `origin`, `options` as
+/// morula_shape_from_mask(); cells greater than *threshold are solid, NULL
+/// means Otsu's threshold.
+/// Returns: as morula_shape_from_mask(); NOT_FINITE also for the threshold.
+/// Ownership: the arrays are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_from_grey_u8(const uint8_t *values,
+                                  const size_t *dims,
+                                  const double *spacing,
+                                  const double *origin,
+                                  const double *threshold,
+                                  const struct morula_import_options *options,
+                                  struct morula_shape **shape);
+
+/// Makes a shape from a grey volume of 16 bits.
+///
+/// Parameters, returns, ownership, threads: as morula_shape_from_grey_u8().
+int32_t morula_shape_from_grey_u16(const uint16_t *values,
+                                   const size_t *dims,
+                                   const double *spacing,
+                                   const double *origin,
+                                   const double *threshold,
+                                   const struct morula_import_options *options,
+                                   struct morula_shape **shape);
+
+/// Makes a shape from a grey volume of single precision.
+///
+/// Parameters, returns, ownership, threads: as morula_shape_from_grey_u8();
+/// NOT_FINITE also for a value.
+int32_t morula_shape_from_grey_f32(const float *values,
+                                   const size_t *dims,
+                                   const double *spacing,
+                                   const double *origin,
+                                   const double *threshold,
+                                   const struct morula_import_options *options,
+                                   struct morula_shape **shape);
+
+/// Makes a shape from one label of a label volume.
+///
+/// Parameters: `labels`, `dims`, `spacing`, `origin`, `options` as
+/// morula_shape_from_mask(); the cells that hold `label` are solid. The report
+/// says whether they touch the border of the array.
+/// Returns: as morula_shape_from_mask(); INDEX_OUT_OF_RANGE when no cell holds the label;
+/// INVALID_ARGUMENT for label 0, which is background.
+/// Ownership: the arrays are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_from_label(const uint32_t *labels,
+                                const size_t *dims,
+                                const double *spacing,
+                                const double *origin,
+                                uint32_t label,
+                                const struct morula_import_options *options,
+                                struct morula_shape **shape);
+
+/// How many labels other than 0 a label volume holds.
+///
+/// Parameters: `labels` and `dims` as morula_shape_from_label().
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; TOO_LARGE; EMPTY (no cell);
+/// OUT_OF_MEMORY; INTERNAL.
+/// Threads: any thread.
+int32_t morula_labels_count(const uint32_t *labels, const size_t *dims, size_t *count);
+
+/// Lists the labels of a label volume, ascending, without 0.
+///
+/// Parameters: `labels` and `dims` as morula_shape_from_label(); each of the
+/// arrays may be NULL when it is not asked for, the others have room for
+/// `capacity` labels: `ids` the labels, `cells` their numbers of cells, `boxes`
+/// six numbers each (the first cell along x, y, z and the last, inclusive),
+/// `touches_border` 1 where the label touches the border of the array, so that
+/// the particle may be cut off.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is
+/// written); TOO_LARGE; EMPTY (no cell); OUT_OF_MEMORY; INTERNAL.
+/// Threads: any thread.
+int32_t morula_labels_copy(const uint32_t *labels,
+                           const size_t *dims,
+                           size_t capacity,
+                           uint32_t *ids,
+                           uint64_t *cells,
+                           uint64_t *boxes,
+                           int32_t *touches_border);
+
+/// The name of the built-in analytic particle number `index`, counted from 0.
+///
+/// Returns: static text; NULL when there are no more. Do not free it.
+/// Threads: any thread at any time.
+const char *morula_primitive_name(size_t index);
+
+/// How many parameters a built-in particle has.
+///
+/// Parameters: `name` is one of morula_primitive_name().
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; UNSUPPORTED (no such name).
+/// Threads: any thread.
+int32_t morula_primitive_parameter_count(const char *name, size_t *count);
+
+/// Copies the key of parameter `index` (from 0) with its closing NUL, and its default.
+///
+/// Parameters: `key` has room for `capacity` bytes; `length` (may be NULL)
+/// becomes the length without the NUL; with `key` NULL and `capacity` 0 the key
+/// is not copied. `value` (may be NULL) becomes the default.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; UNSUPPORTED (no such name);
+/// INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: any thread.
+int32_t morula_primitive_copy_parameter(const char *name,
+                                        size_t index,
+                                        size_t capacity,
+                                        char *key,
+                                        size_t *length,
+                                        double *value);
+
+/// Makes a shape of a built-in analytic particle, centred on the origin, its
+/// axis of revolution along z.
+///
+/// Parameters: `name` is one of morula_primitive_name(); `keys` and `values`
+/// set `count` of its parameters (each key as morula_primitive_copy_parameter()
+/// gives it; NULL with a count of 0 keeps the defaults); `segments` is about
+/// the number of edges around the body (0: 64); `seed` tells stones apart and
+/// is not read by the others; `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; UNSUPPORTED (no such name);
+/// INVALID_ARGUMENT (a key, a value or an option); STRUCT_SIZE; NOT_FINITE;
+/// TOO_LARGE; MEMORY_LIMIT; OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Ownership: strings and arrays are copied; free *shape with
+/// morula_shape_free(). *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_from_primitive(const char *name,
+                                    const char *const *keys,
+                                    const double *values,
+                                    size_t count,
+                                    uint32_t segments,
+                                    uint64_t seed,
+                                    const struct morula_import_options *options,
+                                    struct morula_shape **shape);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_solid_options_init(struct morula_solid_options *options,
+                                  size_t size);
+
+/// Makes the solid of a shape: grid, inside, exact moments. One solid serves many clumps.
+///
+/// Parameters: `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (an option);
+/// STRUCT_SIZE; EMPTY; ZERO_VOLUME; OPEN_SURFACE; MEMORY_LIMIT (with both
+/// figures); TOO_LARGE; OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Ownership: the shape stays the caller's and may be freed at once; free
+/// *solid with morula_solid_free(). *solid is written only on success.
+/// Threads: any thread; the shape is only read.
+int32_t morula_solid_from_shape(const struct morula_shape *shape,
+                                const struct morula_solid_options *options,
+                                struct morula_solid **solid);
+
+/// Takes a solid back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_solid_free(struct morula_solid *solid);
+
+/// The grid of a solid.
+///
+/// Parameters (each may be NULL when it is not asked for): `dims` becomes the
+/// numbers of cells along x, y, z, padding included; `spacing` the edge lengths
+/// of a cell and `origin` the lower corner of the first cell, in the caller's
+/// unit and frame.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER (the solid).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_solid_grid(const struct morula_solid *solid,
+                          size_t *dims,
+                          double *spacing,
+                          double *origin);
+
+/// Exact signed distances from points to the surface, negative inside.
+///
+/// Parameters: `points` holds x, y, z of `count` points, one after the other,
+/// in the caller's unit and frame; `distances` has room for `count` numbers.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; NOT_FINITE (a coordinate);
+/// INVALID_ARGUMENT (a point farther than 1e100 sizes of the body); TOO_LARGE;
+/// INTERNAL.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_solid_distance(const struct morula_solid *solid,
+                              size_t count,
+                              const double *points,
+                              double *distances);
+
+/// How many notes there are on the solid: sentences that a user should know,
+/// such as too few cells across its thinnest part.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_solid_note_count(const struct morula_solid *solid, size_t *count);
+
+/// Copies note `index` (from 0) with its closing NUL.
+///
+/// Parameters: `text` has room for `capacity` bytes; `length` (may be NULL)
+/// becomes the length without the NUL. With `text` NULL and `capacity` 0 only
+/// `length` is written.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_solid_copy_note(const struct morula_solid *solid,
+                               size_t index,
+                               size_t capacity,
+                               char *text,
+                               size_t *length);
+
+/// Mass, centre and inertia of a solid.
+///
+/// Parameters, returns, threads: as morula_shape_moments(); nothing is computed anew.
+int32_t morula_solid_moments(const struct morula_solid *solid,
+                             double density,
+                             struct morula_moments *moments);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_clump_options_init(struct morula_clump_options *options,
+                                  size_t size);
+
+/// Makes a clump of a shape; the solid is made inside. For several clumps of
+/// one shape make the solid once and use morula_clump_from_solid().
+///
+/// Parameters: `solid_options` and `options` may be NULL for the defaults;
+/// threads, progress and user are those of `options`.
+/// Returns: MORULA_STATUS_OK; the statuses of morula_solid_from_shape() and of
+/// morula_clump_from_solid().
+/// Ownership: the shape stays the caller's and may be freed at once; free
+/// *clump with morula_clump_free(). *clump is written only on success.
+/// Threads: any thread; the shape is only read. The same bytes come out for any
+/// number of threads.
+int32_t morula_clump_from_shape(const struct morula_shape *shape,
+                                const struct morula_solid_options *solid_options,
+                                const struct morula_clump_options *options,
+                                struct morula_clump **clump);
+
+/// Makes a clump of a solid.
+///
+/// Parameters: `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK, also when the deadline passed or the callback
+/// cancelled after there were spheres (ask morula_clump_stopped());
+/// NULL_POINTER; INVALID_ARGUMENT (an option); STRUCT_SIZE; CANCELLED (before
+/// there was a sphere); NO_SPHERES; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
+/// Ownership: the solid stays the caller's and may be freed at once; free
+/// *clump with morula_clump_free(). *clump is written only on success.
+/// Threads: any thread; the solid is only read. The same bytes come out for any
+/// number of threads.
+int32_t morula_clump_from_solid(const struct morula_solid *solid,
+                                const struct morula_clump_options *options,
+                                struct morula_clump **clump);
+
+/// Takes a clump back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_clump_free(struct morula_clump *clump);
+
+/// How many spheres a clump has; at least 1.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_sphere_count(const struct morula_clump *clump, size_t *count);
+
+/// Copies the spheres, in the order in which the method chose them.
+///
+/// Parameters: `xyzr` has room for `capacity` spheres of four numbers each: x,
+/// y, z and radius, in the caller's unit and in the frame that the options
+/// asked for (in Fortran an array xyzr(4, n)).
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_copy_spheres(const struct morula_clump *clump,
+                                  size_t capacity,
+                                  double *xyzr);
+
+/// Why the method stopped: one of MORULA_STOPPED_*.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_stopped(const struct morula_clump *clump, int32_t *stopped);
+
+/// The word for a MORULA_STOPPED_* number ("deadline").
+///
+/// Returns: static text, never NULL ("unknown" for other numbers); do not free it.
+/// Threads: any thread at any time. Never fails.
+const char *morula_stopped_name(int32_t stopped);
+
+/// Copies the clump's note with its closing NUL: one sentence when fewer
+/// spheres came than were asked for, else empty.
+///
+/// Parameters: `text` has room for `capacity` bytes; `length` (may be NULL)
+/// becomes the length without the NUL. With `text` NULL and `capacity` 0 only
+/// `length` is written.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_copy_note(const struct morula_clump *clump,
+                               size_t capacity,
+                               char *text,
+                               size_t *length);
+
+/// Mass, centre and inertia of the clump's target: what the solver should give
+/// the body (not the sum over the spheres, which overlap).
+///
+/// All of it is in the input frame, whatever the frame of the spheres: `centre`
+/// and `rotation` are the pose that takes body-frame spheres back to the input
+/// frame, and `principal` is the inertia in the body frame.
+///
+/// Parameters: `density` is mass per (caller's unit)^3; `moments` is filled:
+/// set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; NOT_WANTED (without
+/// MORULA_WANT_MOMENTS); INVALID_ARGUMENT (the density is not a number greater
+/// than 0).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_moments(const struct morula_clump *clump,
+                             double density,
+                             struct morula_moments *moments);
+
+/// How far the clump is from its target by volume.
+///
+/// Parameters: `overlap` is filled; set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; NOT_WANTED (without
+/// MORULA_WANT_OVERLAP); CANCELLED (the call was cancelled before it was measured).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_overlap(const struct morula_clump *clump, struct morula_overlap *overlap);
+
+/// How far the clump's surface is from its target's.
+///
+/// Parameters: `surface` is filled; set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; NOT_WANTED (without
+/// MORULA_WANT_SURFACE); CANCELLED (the call was cancelled before it was measured).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_surface(const struct morula_clump *clump, struct morula_surface *surface);
+
+/// Copies the exposed area of each sphere, in the order of the spheres.
+///
+/// Parameters: `areas` has room for `capacity` numbers, as many as there are spheres.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is
+/// written); NOT_WANTED (without MORULA_WANT_SURFACE); CANCELLED (the call was
+/// cancelled before they were measured).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_copy_exposed_areas(const struct morula_clump *clump,
+                                        size_t capacity,
+                                        double *areas);
+
+/// Copies the greatest number of spheres that one plane touches within each of
+/// the plane_tolerances of the options, in their order.
+///
+/// Parameters: `counts` has room for `capacity` numbers, as many as there were tolerances.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is
+/// written); NOT_WANTED (without plane_tolerances); CANCELLED (the call was
+/// cancelled before they were counted).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_copy_plane_contacts(const struct morula_clump *clump,
+                                         size_t capacity,
+                                         uint32_t *counts);
+
+/// What the call that made the clump did: stage times and counters.
+///
+/// Parameters: `counters` is filled; set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_counters(const struct morula_clump *clump,
+                              struct morula_counters *counters);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* MORULA_H */

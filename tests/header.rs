@@ -1,0 +1,130 @@
+//! The committed header is what the code gives. `MORULA_WRITE_HEADER=1` rewrites it.
+
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The header's order of reading.
+const FILES: [&str; 9] =
+    ["status", "callbacks", "structs", "shape", "file", "voxels", "primitive", "solid", "clump"];
+
+fn generate() -> String {
+    let mut config = cbindgen::Config::from_file(root().join("cbindgen.toml")).unwrap();
+    let part = |name: &str, value: &str| format!("#define MORULA_VERSION_{name} {value}\n");
+    config.after_includes = Some(format!(
+        "\n/* The version of this header; morula_version() is that of the library. */\n{}{}{}{}{}",
+        part("MAJOR", env!("CARGO_PKG_VERSION_MAJOR")),
+        part("MINOR", env!("CARGO_PKG_VERSION_MINOR")),
+        part("PATCH", env!("CARGO_PKG_VERSION_PATCH")),
+        format_args!("#define MORULA_VERSION_STRING \"{}\"\n", env!("CARGO_PKG_VERSION")),
+        "#define MORULA_VERSION \\\n  (1000000u * MORULA_VERSION_MAJOR + 1000u * MORULA_VERSION_MINOR + MORULA_VERSION_PATCH)",
+    ));
+    let mut builder = cbindgen::Builder::new().with_config(config);
+    for name in FILES.iter().chain(["clump_read"].iter()) {
+        builder = builder.with_src(root().join(format!("src/ffi/{name}.rs")));
+    }
+    let mut out = Vec::new();
+    builder.generate().unwrap().write(&mut out);
+    String::from_utf8(out).unwrap()
+}
+
+#[test]
+fn the_committed_header_is_current() {
+    let path = root().join("include/morula.h");
+    let fresh = generate();
+    if std::env::var_os("MORULA_WRITE_HEADER").is_some() {
+        std::fs::write(&path, &fresh).unwrap();
+    }
+    let committed = std::fs::read_to_string(&path).unwrap_or_default();
+    let differs = fresh.lines().zip(committed.lines()).position(|(a, b)| a != b);
+    assert!(
+        fresh == committed,
+        "include/morula.h differs from the code from line {} on: run MORULA_WRITE_HEADER=1 cargo test --test header",
+        differs.map_or(fresh.lines().count().min(committed.lines().count()), |l| l) + 1
+    );
+}
+
+#[test]
+fn every_file_of_the_room_that_exports_is_in_the_header() {
+    for entry in std::fs::read_dir(root().join("src/ffi")).unwrap() {
+        let path = entry.unwrap().path();
+        let exports = std::fs::read_to_string(&path).unwrap().contains("no_mangle");
+        let name = path.file_stem().and_then(|s| s.to_str()).unwrap().to_owned();
+        assert!(!exports || FILES.contains(&name.as_str()) || name == "clump_read", "{name}");
+    }
+}
+
+#[test]
+fn structs_have_no_padding_and_the_size_that_the_library_says() {
+    let header = std::fs::read_to_string(root().join("include/morula.h")).unwrap();
+    let mut seen = 0;
+    for which in 1.. {
+        let size = morula::ffi::morula_sizeof(which);
+        if size == 0 {
+            break;
+        }
+        seen += 1;
+        let name = header
+            .lines()
+            .filter_map(|l| l.strip_prefix("#define MORULA_STRUCT_"))
+            .find_map(|l| l.strip_suffix(&format!(" {which}")))
+            .unwrap_or_else(|| panic!("MORULA_STRUCT_* {which} is not in the header"));
+        let name = format!("morula_{}", name.to_lowercase());
+        assert_eq!(sum_of_fields(&header, &name), size, "{name} has padding");
+    }
+    // Beside the three handles.
+    assert_eq!(seen + 3, header.matches("\ntypedef struct morula_").count());
+}
+
+/// Adds up the sizes of a struct's fields as the header declares them.
+fn sum_of_fields(header: &str, name: &str) -> usize {
+    let body = header
+        .split(&format!("typedef struct {name} {{"))
+        .nth(1)
+        .and_then(|rest| rest.split('}').next())
+        .unwrap_or_else(|| panic!("{name} is not in the header"));
+    let mut sum = 0;
+    for line in body.lines().map(str::trim).filter(|l| l.ends_with(';') && !l.starts_with('/')) {
+        let declaration = line.trim_end_matches(';');
+        let each = match declaration {
+            d if d.contains('*') || d.starts_with("size_t") || d.starts_with("morula_") => {
+                size_of::<usize>()
+            }
+            d if d.starts_with("double") || d.starts_with("uint64_t") => 8,
+            d if d.starts_with("int32_t") || d.starts_with("uint32_t") => 4,
+            d => panic!("{name}: unknown field {d}"),
+        };
+        let count = declaration
+            .split_once('[')
+            .map_or(1, |(_, n)| n.trim_end_matches(']').parse::<usize>().unwrap());
+        sum += each * count;
+    }
+    sum
+}
+
+#[test]
+fn the_header_compiles_alone_as_c_and_cpp() {
+    let header = root().join("include/morula.h");
+    let have = |tool: &str| std::process::Command::new(tool).arg("--version").output().is_ok();
+    for (tool, standard, language) in
+        [("cc", "-std=c99", "c"), ("c++", "-std=c++17", "c++"), ("cc", "-std=c11", "c")]
+    {
+        if !have(tool) {
+            println!("skipped: {tool} is not installed");
+            continue;
+        }
+        compile(tool, &["-x", language, standard], &header);
+    }
+}
+
+fn compile(tool: &str, flags: &[&str], file: &Path) {
+    let out = std::process::Command::new(tool)
+        .args(["-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Werror"])
+        .args(flags)
+        .arg(file)
+        .output()
+        .unwrap();
+    assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
+}
