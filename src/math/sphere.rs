@@ -25,4 +25,3 @@ impl Sphere {
         4.0 / 3.0 * std::f64::consts::PI * self.radius.powi(3)
     }
 }
-use crate::shape::Mesh;
