@@ -1,5 +1,7 @@
 //! Columns against a slow exact oracle, against formulas, and through edges and vertices.
 
+#![allow(clippy::unwrap_used)]
+
 use morula::math::Vec3;
 use morula::run::Pool;
 use morula::shape::{Body, Mesh, Voxels};

@@ -1,6 +1,8 @@
 //! How far a clump is from its solid, independent of the grid that made it.
 
-use crate::error::{Error, Result};
+mod overlap;
+
+use crate::error::{Error, Result, reserve};
 use crate::math::Sphere;
 use crate::run::Run;
 use crate::solid::Solid;
@@ -8,7 +10,8 @@ use crate::solid::Solid;
 /// What is measured, and how finely.
 #[derive(Debug, Clone, PartialEq)]
 pub struct QualityOptions {
-    /// Columns along each of the two sampled axes.
+    /// Columns along each of the two sampled axes, 8 to 8192. They run along the shortest edge
+    /// of the target's bounding box.
     pub columns: usize,
     /// D, η, IoU, coverage, overshoot, and the union's volume, centroid and principal moments.
     pub overlap: bool,
@@ -38,7 +41,9 @@ pub struct Quality {
     pub coverage: f64,
     /// |C∖S| / |S|.
     pub overshoot: f64,
-    /// Bound on the error of D from the sampling of two axes.
+    /// Bound on the error of D from the sampling of two axes: from four interleaved lattices of
+    /// twice the step, each part of D by itself. An estimate that held with a factor of two to
+    /// spare on lenses, boxes and ellipsoids; at 256 columns it is about 2e-4, the error 2e-5.
     pub error_bound: f64,
     /// Volume of the target by the same columns.
     pub target_volume: f64,
@@ -48,7 +53,7 @@ pub struct Quality {
     pub volume_error: f64,
     /// Distance between the centroids over the equivalent diameter.
     pub centroid_error: f64,
-    /// Each principal moment of the union over the target's, less one.
+    /// Each principal moment of the union over the target's, less one; both by the same columns.
     pub moment_errors: [f64; 3],
     /// How far the union reaches beyond the surface.
     pub protrusion: f64,
@@ -75,6 +80,63 @@ pub fn quality(
     options: &QualityOptions,
     run: &Run,
 ) -> Result<Quality> {
-    let _ = (solid, spheres, options, run);
-    Err(Error::Internal("quality is not built yet".into()))
+    let unit = check(solid, spheres, options)?;
+    let scale = solid.frame().scale;
+    let mut q = Quality::default();
+    if options.overlap {
+        let o = overlap::overlap(solid, &unit, options, run)?;
+        let cube = scale.powi(3);
+        q.mismatch = o.mismatch;
+        q.error_bound = o.error_bound;
+        q.eta = (o.target + o.union - 2.0 * o.both).max(0.0) / o.target;
+        q.iou = o.both / (o.target + o.union - o.both);
+        q.coverage = o.both / o.target;
+        q.overshoot = (o.union - o.both).max(0.0) / o.target;
+        q.target_volume = o.target * cube;
+        q.union_volume = o.union * cube;
+        q.volume_error = o.union / o.target - 1.0;
+        q.centroid_error = o.centroid_error;
+        q.moment_errors = o.moment_errors;
+    }
+    Ok(q)
+}
+
+/// The spheres in the unit frame.
+fn check(solid: &Solid, spheres: &[Sphere], options: &QualityOptions) -> Result<Vec<Sphere>> {
+    if !(8..=8192).contains(&options.columns) {
+        return Err(Error::InvalidArgument(format!(
+            "columns is {}, not 8 to 8192",
+            options.columns
+        )));
+    }
+    for (i, &delta) in options.plane_tolerances.iter().enumerate() {
+        if !(delta.is_finite() && delta >= 0.0) {
+            return Err(Error::InvalidArgument(format!(
+                "plane tolerance {i} is {delta}, not a number ≥ 0"
+            )));
+        }
+    }
+    if spheres.is_empty() {
+        return Err(Error::Empty("there is no sphere to measure".into()));
+    }
+    let mut unit = reserve("spheres", spheres.len())?;
+    for (i, s) in spheres.iter().enumerate() {
+        if !(s.center.iter().all(|x| x.is_finite()) && s.radius.is_finite()) {
+            return Err(Error::NotFinite(format!(
+                "sphere {i} has centre ({}, {}, {}) and radius {}",
+                s.center.x, s.center.y, s.center.z, s.radius
+            )));
+        }
+        let u = solid.frame().sphere_to_unit(s);
+        // Far beyond any clump, squares would overflow; below this, they vanish.
+        if !(u.radius >= 1e-100 && u.radius <= 1e100 && u.center.amax() <= 1e100) {
+            return Err(Error::InvalidArgument(format!(
+                "sphere {i} has radius {} and lies {} from the target: out of proportion",
+                s.radius,
+                u.center.amax() * solid.frame().scale
+            )));
+        }
+        unit.push(u);
+    }
+    Ok(unit)
 }

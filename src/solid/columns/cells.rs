@@ -1,7 +1,7 @@
 //! Columns through voxels: runs of cells.
 
 use super::{Band, Lattice, empty_band, map_bands, push};
-use crate::error::{Error, Result, reserve};
+use crate::error::{Error, Result};
 use crate::run::Pool;
 use crate::shape::Voxels;
 
@@ -14,24 +14,19 @@ pub(super) fn bands(voxels: &Voxels, lattice: &Lattice, pool: &Pool) -> Result<V
     let axis = lattice.axis;
     let stride = [1, nx, nx * ny];
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-    // The cell under each column; a column on the face between two cells belongs to the upper one.
-    let under = |k: usize, a: usize| -> Result<Vec<Option<usize>>> {
-        let mut out = reserve("columns", lattice.dims[k])?;
-        for i in 0..lattice.dims[k] {
-            let x = lattice.at(k, i) / voxels.spacing[a];
-            let cell = (x >= 0.0).then_some(x as usize).filter(|&c| c < voxels.dims[a]);
-            out.push(cell);
-        }
-        Ok(out)
+    // The cell under a column; one on the face between two cells belongs to the upper cell.
+    let under = |x: f64, a: usize| {
+        let x = x / voxels.spacing[a];
+        (x >= 0.0).then_some(x as usize).filter(|&c| c < voxels.dims[a])
     };
-    let (us, vs) = (under(0, u)?, under(1, v)?);
     let h = voxels.spacing[axis];
     map_bands(lattice, pool, |first, rows| {
         let mut band = empty_band(rows * lattice.dims[0])?;
         let mut counts = band.counts.iter_mut();
-        for row in &vs[first..first + rows] {
-            for (column, count) in us.iter().zip(&mut counts) {
-                let (Some(i), Some(j)) = (column, row) else { continue };
+        for b in first..first + rows {
+            for (a, count) in (0..lattice.dims[0]).zip(&mut counts) {
+                let [x, y] = lattice.place(a, b);
+                let (Some(i), Some(j)) = (under(x, u), under(y, v)) else { continue };
                 let base = i * stride[u] + j * stride[v];
                 let mut start = None;
                 for k in 0..voxels.dims[axis] {

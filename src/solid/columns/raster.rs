@@ -53,11 +53,10 @@ pub(super) struct Binned<'a> {
 
 impl<'a> Binned<'a> {
     pub(super) fn new(mesh: &'a Mesh, lattice: &Lattice) -> Result<Self> {
-        let row = (lattice.axis + 2) % 3;
         let bands = lattice.dims[1].div_ceil(BAND);
         // Rows of a face: those at or above its lowest vertex and below its highest.
         let range = |f: usize| {
-            let v = mesh.corners(f).map(|p| p[row]);
+            let v = mesh.corners(f).map(|p| lattice.turn(&p)[1]);
             let first = lattice.below(1, v[0].min(v[1]).min(v[2]));
             let end = lattice.below(1, v[0].max(v[1]).max(v[2]));
             (end > first).then(|| first / BAND..(end - 1) / BAND + 1)
