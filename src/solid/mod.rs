@@ -9,6 +9,7 @@ pub mod field;
 pub mod grid;
 pub mod moments;
 pub mod nearest;
+mod triangle;
 pub mod winding;
 
 pub use columns::Columns;
