@@ -1,0 +1,105 @@
+#!/bin/sh
+# Everything that must hold: format, lints, docs, Rust tests (with the check
+# that the C header is current), and CTest against the installed tree.
+#   sh scripts/test.sh          the daily run, at most 12 minutes on 2 cores
+#   sh scripts/test.sh --full   with the long cases
+# Tests over third-party data run when MORULA_DATA names their folder.
+set -u
+cd "$(dirname "$0")/.." || exit 1
+. scripts/need.sh
+
+full=no
+for argument in "$@"; do
+    case "$argument" in
+    --full) full=yes ;;
+    *)
+        echo "usage: sh scripts/test.sh [--full]" >&2
+        exit 2
+        ;;
+    esac
+done
+[ "$full" = yes ] && export MORULA_FULL=1
+
+need_rust
+need cmake cmake
+need make make
+need g++ g++
+
+logs=build/test-logs
+mkdir -p "$logs" || exit 1
+summary="$logs/summary"
+: >"$summary"
+failed=0
+
+skip() { echo "skipped  $1: $2" >>"$summary"; }
+
+# step NAME COMMAND…: runs it, keeps its log, notes the outcome and the time.
+step() {
+    name=$1
+    shift
+    log="$logs/$(echo "$name" | tr ' ' '-').log"
+    echo
+    echo "== $name: $*"
+    begin=$(date +%s)
+    { "$@" 2>&1 </dev/null; echo $? >"$log.status"; } | tee "$log"
+    took=$(($(date +%s) - begin))
+    if [ "$(cat "$log.status")" = 0 ]; then
+        echo "ok       $name ($took s)" >>"$summary"
+    else
+        echo "FAILED   $name ($took s), see $log" >>"$summary"
+        failed=1
+    fi
+}
+
+# component NAME: a part of the Rust toolchain, fetched when rustup can.
+component() {
+    cargo "$1" --version >/dev/null 2>&1 && return 0
+    have rustup && rustup component add "${2:-$1}" >/dev/null 2>&1 &&
+        cargo "$1" --version >/dev/null 2>&1
+}
+
+if component fmt rustfmt; then
+    step "format" cargo fmt --check
+else
+    skip "format" "rustfmt is not installed"
+fi
+if component clippy; then
+    step "lints" cargo clippy --locked --all-targets -- -D warnings
+else
+    skip "lints" "clippy is not installed"
+fi
+step "docs" env RUSTDOCFLAGS=-Dwarnings cargo doc --locked --no-deps
+# The dev profile: optimised, with debug assertions.
+step "cargo test" cargo test --locked --no-fail-fast
+
+have gfortran || install gfortran || true
+have gfortran || skip "Fortran cases of CTest" "gfortran is not installed"
+tree=build/test
+step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release
+step "cmake build" cmake --build "$tree"
+step "ctest" ctest --test-dir "$tree" --output-on-failure
+
+have python3 || skip "made hard cases" "python3 is not installed"
+if cargo deny --version >/dev/null 2>&1; then
+    step "licences" cargo deny --offline check licenses
+else
+    skip "licences" "cargo-deny is not installed"
+fi
+[ -n "${MORULA_DATA:-}" ] || skip "cases over third-party data" "MORULA_DATA is not set"
+[ "$full" = yes ] || skip "long cases" "run with --full"
+
+echo
+echo "== summary"
+cat "$summary"
+passed=$(sed -n 's/^test result: [a-zA-Z]*\. \([0-9]*\) passed.*/\1/p' "$logs/cargo-test.log" |
+    awk '{ n += $1 } END { print n + 0 }')
+wrong=$(sed -n 's/^test result: .* passed; \([0-9]*\) failed.*/\1/p' "$logs/cargo-test.log" |
+    awk '{ n += $1 } END { print n + 0 }')
+echo "cargo test: $passed passed, $wrong failed"
+echo "CTest: $(grep 'tests passed' "$logs/ctest.log" || echo 'no total')"
+if [ "$failed" = 0 ]; then
+    echo "all steps passed"
+else
+    echo "a step FAILED"
+fi
+exit "$failed"
