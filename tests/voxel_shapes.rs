@@ -244,7 +244,7 @@ fn face_area(mask: &[u8], dims: [usize; 3], spacing: [f64; 3]) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn volume_is_cells_times_cell_volume(

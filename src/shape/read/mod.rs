@@ -2,12 +2,17 @@
 //! declares is checked against what is really there before anything is reserved.
 
 mod detect;
+mod npy;
+mod numbers;
 mod obj;
 mod off;
 mod ply;
 mod polygon;
+mod raw;
 mod stl;
 mod text;
+mod tiff;
+mod voxels;
 
 use super::voxels::Threshold;
 use super::{ImportOptions, Layout, Shape};
@@ -31,7 +36,7 @@ pub enum Format {
     Npy,
     /// Multi-page TIFF.
     Tiff,
-    /// Raw bytes: needs [`RawLayout`].
+    /// Raw bytes: needs [`FileOptions::raw`].
     Raw,
 }
 
@@ -49,7 +54,8 @@ pub enum RawType {
 /// How voxel files are understood.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Meaning {
-    /// Two values: anything but 0 is solid. Grey data (more than two values) is thresholded by Otsu.
+    /// One value, or 0 and another: anything but 0 is solid. Other data are grey and
+    /// thresholded by Otsu.
     Auto,
     /// Grey values with a threshold.
     Grey(Threshold),
@@ -106,6 +112,8 @@ pub struct RawVoxels {
     pub layout: Layout,
     /// Values.
     pub values: RawValues,
+    /// One sentence for each conversion of the values.
+    pub notes: Vec<String>,
 }
 
 /// The values of a voxel file, by element type.
@@ -133,7 +141,7 @@ impl Shape {
         let raw = run.time(Stage::Read, || read(bytes, name, options))?;
         match raw {
             Raw::Mesh(m) => Shape::from_mesh(&m.vertices, &m.faces, &options.import, run),
-            Raw::Voxels(v) => from_voxels(v, options, run),
+            Raw::Voxels(v) => voxels::shape(v, options, run),
         }
     }
 
@@ -159,21 +167,9 @@ fn read(bytes: &[u8], name: &str, options: &FileOptions) -> Result<Raw> {
         Format::Ply => ply::read(bytes).map(Raw::Mesh),
         Format::Off => off::read(bytes).map(Raw::Mesh),
         Format::Npy | Format::Tiff | Format::Raw => {
-            read_voxels(bytes, format, options).map(Raw::Voxels)
+            voxels::read(bytes, format, options).map(Raw::Voxels)
         }
     }
-}
-
-/// The voxels of a file.
-fn read_voxels(bytes: &[u8], format: Format, options: &FileOptions) -> Result<RawVoxels> {
-    let _ = (bytes, options);
-    Err(Error::Unsupported(format!("{format:?} files are not read yet")))
-}
-
-/// The shape of the voxels of a file.
-fn from_voxels(voxels: RawVoxels, options: &FileOptions, run: &Run) -> Result<Shape> {
-    let _ = (voxels, options, run);
-    Err(Error::Internal("voxel files are not read yet".into()))
 }
 
 /// The bytes of a file no larger than `limit`.

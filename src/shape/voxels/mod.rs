@@ -27,7 +27,7 @@ pub struct Layout {
 
 /// Solid cells after checks, in the unit frame, cropped to the body's bounding
 /// box: no padding is kept here, the solid adds its own.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Voxels {
     /// Cells along x, y, z.
     pub dims: [usize; 3],
@@ -36,6 +36,16 @@ pub struct Voxels {
     /// 1 for solid cells, 0 elsewhere; x fastest. The lower corner of the first cell is the
     /// unit frame's origin.
     pub cells: Vec<u8>,
+}
+
+impl std::fmt::Debug for Voxels {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        // Without the cells: there may be millions.
+        f.debug_struct("Voxels")
+            .field("dims", &self.dims)
+            .field("spacing", &self.spacing)
+            .finish_non_exhaustive()
+    }
 }
 
 /// A grey volume, x fastest.

@@ -1,0 +1,111 @@
+//! From the voxels of a file to a shape, by what the values mean.
+
+use super::{FileOptions, Format, Meaning, RawValues, RawVoxels, npy, raw, tiff};
+use crate::error::{Error, Result, reserve};
+use crate::run::Run;
+use crate::shape::Shape;
+use crate::shape::voxels::{Grey, Threshold};
+
+/// The voxels of a file.
+pub(super) fn read(bytes: &[u8], format: Format, options: &FileOptions) -> Result<RawVoxels> {
+    match format {
+        Format::Npy => npy::read(bytes, options),
+        Format::Tiff => tiff::read(bytes, options),
+        Format::Raw => raw::read(bytes, options),
+        _ => Err(Error::Internal(format!("{format:?} is no voxel format"))),
+    }
+}
+
+/// Refuses `cells` values that take more than the limit, at `each` bytes.
+pub(super) fn limit(cells: usize, each: usize, options: &FileOptions) -> Result<()> {
+    let bytes = cells as u128 * each as u128;
+    let most = options.import.memory_limit;
+    if bytes > u128::from(most) {
+        return Err(Error::MemoryLimit(format!(
+            "{cells} voxels need {bytes} bytes, the limit is {most}"
+        )));
+    }
+    Ok(())
+}
+
+/// The shape of the voxels of a file.
+pub(super) fn shape(voxels: RawVoxels, options: &FileOptions, run: &Run) -> Result<Shape> {
+    let RawVoxels { layout, values, notes } = voxels;
+    let import = &options.import;
+    let mut shape = match options.meaning {
+        Meaning::Label(label) => {
+            let labels = as_labels(values)?;
+            Shape::from_label(&labels, &layout, label, import, run)
+        }
+        Meaning::Auto if is_mask(&values) => match &values {
+            RawValues::U8(v) => Shape::from_mask(v, &layout, import, run),
+            RawValues::U16(v) => Shape::from_mask(&mask(v)?, &layout, import, run),
+            RawValues::U32(v) => Shape::from_mask(&mask(v)?, &layout, import, run),
+            RawValues::F32(v) => Shape::from_mask(&mask(v)?, &layout, import, run),
+        },
+        Meaning::Auto | Meaning::Grey(_) => {
+            let threshold = match options.meaning {
+                Meaning::Grey(threshold) => threshold,
+                _ => Threshold::Otsu,
+            };
+            let grey = |values| Shape::from_grey(values, &layout, threshold, import, run);
+            match &values {
+                RawValues::U8(v) => grey(Grey::U8(v)),
+                RawValues::U16(v) => grey(Grey::U16(v)),
+                RawValues::F32(v) => grey(Grey::F32(v)),
+                RawValues::U32(v) => match v.iter().all(|&x| x <= u32::from(u16::MAX)) {
+                    true => grey(Grey::U16(&convert(v, |x| x as u16)?)),
+                    false => grey(Grey::F32(&convert(v, |x| x as f32)?)),
+                },
+            }
+        }
+    }?;
+    shape.report.notes.splice(0..0, notes);
+    Ok(shape)
+}
+
+fn convert<T: Copy, U>(values: &[T], f: impl Fn(T) -> U) -> Result<Vec<U>> {
+    let mut out = reserve("voxel values", values.len())?;
+    out.extend(values.iter().map(|&v| f(v)));
+    Ok(out)
+}
+
+fn mask<T: Copy + Default + PartialEq>(values: &[T]) -> Result<Vec<u8>> {
+    convert(values, |v| u8::from(v != T::default()))
+}
+
+/// Whether there is one value only, or 0 and another.
+fn is_mask(values: &RawValues) -> bool {
+    fn of<T: Copy + Default + PartialEq>(values: &[T]) -> bool {
+        let zero = T::default();
+        let Some(&first) = values.first() else { return true };
+        let Some(&other) = values.iter().find(|&&v| v != first) else { return true };
+        (first == zero || other == zero) && values.iter().all(|&v| v == first || v == other)
+    }
+    match values {
+        RawValues::U8(v) => of(v),
+        RawValues::U16(v) => of(v),
+        RawValues::U32(v) => of(v),
+        RawValues::F32(v) => v.iter().all(|x| x.is_finite()) && of(v),
+    }
+}
+
+fn as_labels(values: RawValues) -> Result<Vec<u32>> {
+    match values {
+        RawValues::U8(v) => convert(&v, u32::from),
+        RawValues::U16(v) => convert(&v, u32::from),
+        RawValues::U32(v) => Ok(v),
+        RawValues::F32(v) => {
+            // Below 2^32, whole and not negative.
+            let bad =
+                v.iter().position(|&x| !((0.0..4_294_967_296.0).contains(&x) && x.fract() == 0.0));
+            match bad {
+                Some(i) => Err(Error::InvalidArgument(format!(
+                    "voxel {i} is {}, not a label: labels are whole numbers from 0 to 2^32 - 1",
+                    v[i]
+                ))),
+                None => convert(&v, |x| x as u32),
+            }
+        }
+    }
+}
