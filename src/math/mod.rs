@@ -1,11 +1,13 @@
 //! Small geometry that every room uses: spheres, the unit frame, inertia,
 //! directions.
 
+mod angle;
 mod frame;
 mod inertia;
 mod principal;
 mod sphere;
 
+pub use angle::solid_angle;
 pub use frame::UnitFrame;
 pub use inertia::{Inertia, Moments};
 pub use principal::PrincipalFrame;

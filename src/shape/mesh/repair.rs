@@ -1,31 +1,170 @@
-//! Repair that is safe: faces without area, faces present twice, orientation.
+//! Faces that are no faces: without area, or present more than once.
 
-use super::topology::{Edges, Patches};
+use super::topology::{Edges, Union};
+use super::weld::Weld;
 use crate::error::{Result, filled, reserve};
 use crate::math::Vec3;
-use crate::shape::Report;
 
 /// Height below which a face has no area, in units of the frame: the rounding of
 /// coordinates of size one, with room for a few operations.
 const FLAT: f64 = 1e-12;
 
-/// Drops faces that name a vertex twice or whose corners lie on a line; how many.
-pub fn drop_degenerate(faces: &mut Vec<[u32; 3]>, points: &[Vec3]) -> Result<u64> {
-    let before = faces.len();
-    faces.retain(|f| {
-        let [a, b, c] = f.map(|v| points[v as usize]);
-        let longest = (b - a).norm().max((c - b).norm()).max((a - c).norm());
-        f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && double_area(&a, &b, &c) > FLAT * longest
-    });
-    Ok((before - faces.len()) as u64)
+/// The faces that are left, and what was dropped.
+#[derive(Default)]
+pub struct Kept {
+    /// Faces by welded vertices.
+    pub faces: Vec<[u32; 3]>,
+    /// Faces without area.
+    pub degenerate: u64,
+    /// Faces present more than once.
+    pub duplicate: u64,
+    /// Of these, faces of opposed pairs that were both taken out.
+    pub walls: u64,
+    /// Vertices that are one with another.
+    pub welded: u64,
+    /// Of these, vertices that are not equal to the other.
+    pub moved: u64,
 }
 
-fn double_area(a: &Vec3, b: &Vec3, c: &Vec3) -> f64 {
-    (b - a).cross(&(c - a)).norm()
+/// Welds no more than closes the surface: not at all when it is closed as it was
+/// handed in, else equal points, and points within the tolerance only when that
+/// leaves fewer edges without exactly two faces. Welding more would pinch thin
+/// parts together and join bodies that only touch.
+pub fn close(faces: &[[u32; 3]], points: &[Vec3], weld: &Weld, reach: f64) -> Result<Kept> {
+    let mut used = filled("vertex flags", points.len(), false)?;
+    faces.iter().flatten().for_each(|&v| used[v as usize] = true);
+    let exact = attempt(faces, &used, &weld.exact, &weld.exact)?;
+    let mut best = None;
+    if used.iter().filter(|&&u| u).count() < faces.len() * 2 {
+        let as_is: Vec<u32> = (0..points.len() as u32).collect();
+        let first = attempt(faces, &used, &as_is, &weld.exact)?;
+        // Equal points at one face, or in two faces at one place, need welding.
+        let plain = first.1 == 0 && first.0.degenerate == exact.0.degenerate;
+        best = (plain && first.0.duplicate == exact.0.duplicate).then_some(first);
+    }
+    let mut best = best.unwrap_or(exact);
+    if best.1 > 0 {
+        let near = attempt(faces, &used, &weld.near, &weld.exact)?;
+        if near.1 < best.1 {
+            best = near;
+        }
+    }
+    let mut kept = best.0;
+    drop_flat(&mut kept, points, reach)?;
+    Ok(kept)
 }
 
-/// Keeps one of the faces with the same three vertices; how many were dropped.
-pub fn drop_duplicates(faces: &mut Vec<[u32; 3]>) -> Result<u64> {
+/// The faces by `root`, and how many of their edges do not have exactly two faces.
+fn attempt(faces: &[[u32; 3]], used: &[bool], root: &[u32], exact: &[u32]) -> Result<(Kept, u64)> {
+    let mut kept = Kept { faces: reserve("faces", faces.len())?, ..Kept::default() };
+    kept.faces.extend(faces.iter().map(|f| f.map(|v| root[v as usize])));
+    kept.faces.retain(|f| f[0] != f[1] && f[1] != f[2] && f[2] != f[0]);
+    kept.degenerate = (faces.len() - kept.faces.len()) as u64;
+    drop_duplicates(&mut kept)?;
+    let is = |i: &usize| used[*i] && root[*i] as usize != *i;
+    kept.welded = (0..used.len()).filter(is).count() as u64;
+    let moved = |i: &usize| exact[*i] != exact[root[*i] as usize];
+    kept.moved = (0..used.len()).filter(is).filter(moved).count() as u64;
+    let faulty = Edges::of(&kept.faces)?.faulty();
+    Ok((kept, faulty))
+}
+
+/// Height over the longest edge, and which corner is opposite to it.
+fn height(f: &[u32; 3], points: &[Vec3]) -> (f64, usize) {
+    let [a, b, c] = f.map(|v| points[v as usize]);
+    let edges = [(c - b).norm(), (a - c).norm(), (b - a).norm()];
+    let mut apex = 0;
+    for k in 1..3 {
+        if edges[k] > edges[apex] {
+            apex = k;
+        }
+    }
+    let double_area = (b - a).cross(&(c - a)).norm();
+    if double_area > 0.0 { (double_area / edges[apex], apex) } else { (0.0, apex) }
+}
+
+/// Takes out faces whose corners lie on a line. The apex of such a face lies on its
+/// longest edge; when one other face is there, that one is cut in two at the apex,
+/// so that nothing opens. Faces lower than `reach` that only hang on to
+/// others (more of their edges are free than shared by two) are taken out, too.
+fn drop_flat(kept: &mut Kept, points: &[Vec3], reach: f64) -> Result<()> {
+    // Each pass cuts every face at most once; a chain of flat faces needs several.
+    for _ in 0..32 {
+        let flat: Vec<u32> = (0..kept.faces.len() as u32)
+            .filter(|&i| height(&kept.faces[i as usize], points).0 <= reach.max(FLAT))
+            .collect();
+        if flat.is_empty() {
+            return Ok(());
+        }
+        let faces = &mut kept.faces;
+        let at = at_edges(faces, &Edges::of(faces)?)?;
+        let mut touched = filled("faces", faces.len(), false)?;
+        let mut gone = filled("faces", faces.len(), false)?;
+        for i in flat.into_iter().map(|i| i as usize) {
+            let free = at[i].iter().filter(|e| e.0 == 1).count();
+            let pairs = at[i].iter().filter(|e| e.0 == 2).count();
+            let (h, apex) = height(&faces[i], points);
+            let (count, other) = at[i][apex];
+            if touched[i] {
+                continue;
+            }
+            if free > pairs || h <= FLAT && count != 2 {
+                gone[i] = true;
+            } else if h <= FLAT && !touched[other as usize] {
+                let m = faces[i][apex];
+                let (a, b) = (faces[i][(apex + 1) % 3], faces[i][(apex + 2) % 3]);
+                let o = other as usize;
+                touched[o] = true;
+                if faces[o].contains(&m) {
+                    gone[i] = true;
+                    continue;
+                }
+                // The other face is a, b, x in either sense: a, m, x and m, b, x follow it.
+                let with = |from: u32, to: u32| faces[o].map(|v| if v == from { to } else { v });
+                let (first, second) = (with(b, m), with(a, m));
+                faces[o] = first;
+                faces[i] = second;
+                kept.degenerate += 1;
+            } else {
+                continue;
+            }
+            touched[i] = true;
+        }
+        if !touched.contains(&true) && !gone.contains(&true) {
+            return Ok(());
+        }
+        kept.degenerate += gone.iter().filter(|&&g| g).count() as u64;
+        let mut it = gone.iter();
+        faces.retain(|_| !it.next().is_some_and(|&g| g));
+    }
+    // What could not be healed by cutting goes.
+    let before = kept.faces.len();
+    kept.faces.retain(|f| height(f, points).0 > FLAT);
+    kept.degenerate += (before - kept.faces.len()) as u64;
+    Ok(())
+}
+
+/// For each face and corner: how many faces are at the edge opposite to the corner,
+/// and another one of them.
+fn at_edges(faces: &[[u32; 3]], edges: &Edges) -> Result<Vec<[(usize, u32); 3]>> {
+    let mut at = filled("edges of faces", faces.len(), [(0, 0); 3])?;
+    for e in edges.iter() {
+        for s in e {
+            let (lo, hi) = ((s.key >> 32) as u32, s.key as u32);
+            let opposite = faces[s.face as usize].iter().position(|&v| v != lo && v != hi);
+            let other = e.iter().find(|t| t.face != s.face).map_or(s.face, |t| t.face);
+            at[s.face as usize][opposite.unwrap_or(0)] = (e.len(), other);
+        }
+    }
+    Ok(at)
+}
+
+/// Keeps one of the faces with the same three vertices, with the sense of the most.
+/// Those that oppose each other in equal numbers are kept as one face where that
+/// fills a hole or where there is nothing else (a surface handed in twice), and
+/// taken out where both sides are closed without them (a wall between two parts).
+fn drop_duplicates(kept: &mut Kept) -> Result<()> {
+    let faces = &kept.faces;
     let mut order: Vec<([u32; 3], u32)> = reserve("faces", faces.len())?;
     for (i, f) in faces.iter().enumerate() {
         let mut s = *f;
@@ -34,95 +173,62 @@ pub fn drop_duplicates(faces: &mut Vec<[u32; 3]>) -> Result<u64> {
     }
     order.sort_unstable();
     let mut keep = filled("faces", faces.len(), true)?;
-    for w in order.windows(2) {
-        if w[0].0 == w[1].0 {
-            keep[w[1].1 as usize] = false;
-        }
+    let mut opposed = filled("faces", faces.len(), false)?;
+    let mut any = false;
+    for group in order.chunk_by(|a, b| a.0 == b.0).filter(|g| g.len() > 1) {
+        let even = |i: u32| {
+            let f = faces[i as usize];
+            (0..3).any(|k| [f[k], f[(k + 1) % 3], f[(k + 2) % 3]] == group[0].0)
+        };
+        let forward = group.iter().filter(|g| even(g.1)).count();
+        let sense = 2 * forward >= group.len();
+        let stays = group.iter().find(|g| even(g.1) == sense).map_or(group[0].1, |g| g.1);
+        group.iter().for_each(|g| keep[g.1 as usize] = g.1 == stays);
+        opposed[stays as usize] = 2 * forward == group.len();
+        any |= opposed[stays as usize];
+    }
+    if any {
+        kept.walls = take_out_walls(faces, &mut keep, &opposed)?;
     }
     let before = faces.len();
     let mut it = keep.iter();
-    faces.retain(|_| it.next().copied().unwrap_or(true));
-    Ok((before - faces.len()) as u64)
-}
-
-/// Makes neighbours agree, then turns each patch outward by its volume.
-pub fn orient(
-    faces: &mut [[u32; 3]],
-    points: &[Vec3],
-    edges: &Edges,
-    patches: &Patches,
-    report: &mut Report,
-) -> Result<()> {
-    let turn = flood(faces.len(), edges)?;
-    for (f, &t) in faces.iter_mut().zip(&turn) {
-        if t {
-            f.swap(1, 2);
-            report.faces_turned += 1;
-        }
-    }
-    let mut volume = vec![0.0; patches.count];
-    for (f, &p) in faces.iter().zip(&patches.of) {
-        let [a, b, c] = f.map(|v| points[v as usize]);
-        volume[p as usize] += a.dot(&b.cross(&c));
-    }
-    if volume.iter().all(|&v| v < 0.0) {
-        faces.iter_mut().for_each(|f| f.swap(1, 2));
-        report.inverted = report.faces_turned == 0;
-    }
+    kept.faces.retain(|_| it.next().is_some_and(|&k| k));
+    kept.duplicate = (before - kept.faces.len()) as u64;
     Ok(())
 }
 
-/// Which faces to turn so that neighbours across edges with two faces agree, starting
-/// from the lowest face of each patch.
-fn flood(faces: usize, edges: &Edges) -> Result<Vec<bool>> {
-    let mut neighbours: Vec<(u32, u32, bool)> = reserve("neighbours", faces * 6)?;
+/// Decides for each connected sheet of opposed pairs by the edges at which it meets
+/// other faces; how many faces the input had there.
+fn take_out_walls(faces: &[[u32; 3]], keep: &mut [bool], opposed: &[bool]) -> Result<u64> {
+    let kept: Vec<u32> = (0..faces.len() as u32).filter(|&i| keep[i as usize]).collect();
+    let edges = Edges::of(&kept.iter().map(|&i| faces[i as usize]).collect::<Vec<_>>())?;
+    let is = |k: u32| opposed[kept[k as usize] as usize];
+    let mut union = Union::new(kept.len())?;
     for e in edges.iter() {
-        if let [a, b] = e {
-            let same = a.forward == b.forward;
-            neighbours.push((a.face, b.face, same));
-            neighbours.push((b.face, a.face, same));
+        if let [a, b] = e
+            && is(a.face)
+            && is(b.face)
+        {
+            union.join(a.face, b.face);
         }
     }
-    neighbours.sort_unstable();
-    let mut start = filled("neighbours", faces + 1, 0u32)?;
-    for n in &neighbours {
-        start[n.0 as usize + 1] += 1;
-    }
-    for i in 0..faces {
-        start[i + 1] += start[i];
-    }
-    let mut turn = filled("turns", faces, false)?;
-    let mut seen = filled("turns", faces, false)?;
-    let mut stack: Vec<u32> = Vec::new();
-    for first in 0..faces {
-        if seen[first] {
-            continue;
-        }
-        seen[first] = true;
-        stack.push(first as u32);
-        while let Some(f) = stack.pop() {
-            let f = f as usize;
-            for &(_, g, same) in &neighbours[start[f] as usize..start[f + 1] as usize] {
-                if !seen[g as usize] {
-                    seen[g as usize] = true;
-                    turn[g as usize] = turn[f] != same;
-                    stack.push(g);
-                }
-            }
+    let sheet = union.roots();
+    let mut votes = filled("sheets", kept.len(), 0i64)?;
+    for e in edges.iter() {
+        let plain = e.iter().filter(|s| !is(s.face)).count();
+        if plain > 0 {
+            let vote = if plain % 2 == 1 { 1 } else { -1 };
+            e.iter()
+                .filter(|s| is(s.face))
+                .for_each(|s| votes[sheet[s.face as usize] as usize] += vote);
         }
     }
-    Ok(turn)
-}
-
-/// Signed volume and area, summed in the order of the faces.
-pub fn volume_and_area(points: &[Vec3], faces: &[[u32; 3]]) -> (f64, f64) {
-    let (mut volume, mut area) = (0.0, 0.0);
-    // About the middle of the unit box, which keeps the terms small.
-    let middle = Vec3::repeat(0.5);
-    for f in faces {
-        let [a, b, c] = f.map(|v| points[v as usize] - middle);
-        volume += a.dot(&b.cross(&c));
-        area += double_area(&a, &b, &c);
+    let mut walls = 0;
+    for (k, &i) in kept.iter().enumerate() {
+        if opposed[i as usize] && votes[sheet[k] as usize] < 0 {
+            keep[i as usize] = false;
+            walls += 2;
+        }
     }
-    (volume / 6.0, area / 2.0)
+    Ok(walls)
 }

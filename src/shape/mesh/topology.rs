@@ -1,8 +1,9 @@
 //! What is joined to what: the edge table and the patches of a mesh.
 
-use crate::error::{Result, reserve};
+use crate::error::{Result, filled, reserve};
 
 /// Sets that grow together; the lowest member stands for each.
+#[derive(Clone)]
 pub struct Union {
     parent: Vec<u32>,
 }
@@ -106,6 +107,11 @@ impl Edges {
         Ok(edges)
     }
 
+    /// Edges that do not have exactly two faces.
+    pub fn faulty(&self) -> u64 {
+        self.boundary + self.nonmanifold
+    }
+
     /// The faces at each edge.
     pub fn iter(&self) -> impl Iterator<Item = &[Side]> {
         self.sides.chunk_by(|a, b| a.key == b.key)
@@ -131,7 +137,7 @@ pub fn patches(faces: &[[u32; 3]], edges: &Edges) -> Result<Patches> {
         }
     }
     // A patch is open where it has an odd number of faces at an edge.
-    let mut open = crate::error::filled("open patches", faces.len(), false)?;
+    let mut open = filled("open patches", faces.len(), false)?;
     let mut here: Vec<u32> = Vec::new();
     for e in edges.iter().filter(|e| e.len() > 2) {
         here.clear();

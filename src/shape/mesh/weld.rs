@@ -1,18 +1,25 @@
 //! Welding: vertices nearer to each other than a tolerance become one.
 
 use super::topology::Union;
-use crate::error::{Result, reserve};
+use crate::error::{Result, filled, reserve};
 use crate::math::Vec3;
 
-/// The vertex that stands for each vertex: the lowest index among those that are
-/// linked to it by steps of at most `tolerance` times the longest box edge.
-/// Points are in a unit frame; those that no face uses stand for themselves.
+/// The vertex that stands for each vertex: the lowest index among those it is one with.
+pub struct Weld {
+    /// Only equal points are one.
+    pub exact: Vec<u32>,
+    /// Points that are linked by steps of at most the tolerance are one.
+    pub near: Vec<u32>,
+}
+
+/// Welds the points that `faces` use, with steps of at most `tolerance` times the
+/// longest box edge. Points are in a unit frame.
 ///
-/// Points are sorted along a direction that no plane of a usual part is
-/// perpendicular to, so that only neighbours in that order are compared.
-pub fn weld(points: &[Vec3], faces: &[[u32; 3]], tolerance: f64) -> Result<Vec<u32>> {
+/// They are sorted along a direction to which no plane of a usual part is
+/// perpendicular, so that only neighbours in that order are compared.
+pub fn weld(points: &[Vec3], faces: &[[u32; 3]], tolerance: f64) -> Result<Weld> {
     let along = Vec3::new(0.531_730_291, 0.637_208_347, 0.557_913_113);
-    let mut used = crate::error::filled("vertex flags", points.len(), false)?;
+    let mut used = filled("vertex flags", points.len(), false)?;
     faces.iter().flatten().for_each(|&v| used[v as usize] = true);
     let mut order: Vec<(f64, u32)> = reserve("welding order", points.len())?;
     order.extend((0..points.len()).filter(|&i| used[i]).map(|i| (points[i].dot(&along), i as u32)));
@@ -36,21 +43,18 @@ pub fn weld(points: &[Vec3], faces: &[[u32; 3]], tolerance: f64) -> Result<Vec<u
         }
     }
     drop(order);
-    if tolerance > 0.0 {
-        let edge = longest_edge(points, &distinct);
-        let reach = tolerance * edge;
-        // The rounding of the projection, so that no pair is missed.
-        let window = reach + 1e-15;
-        for (n, &(s, i)) in distinct.iter().enumerate() {
-            for &(t, j) in distinct[n + 1..].iter().take_while(|&&(t, _)| t - s <= window) {
-                let _ = t;
-                if (key(i) - key(j)).norm_squared() <= reach * reach {
-                    union.join(i, j);
-                }
+    let exact = union.clone().roots();
+    let reach = tolerance * longest_edge(points, &distinct);
+    // Room for the rounding of the projection, so that no pair is missed.
+    let window = reach + 1e-15;
+    for (n, &(s, i)) in distinct.iter().enumerate() {
+        for &(_, j) in distinct[n + 1..].iter().take_while(|&&(t, _)| t - s <= window) {
+            if (key(i) - key(j)).norm_squared() <= reach * reach {
+                union.join(i, j);
             }
         }
     }
-    Ok(union.roots())
+    Ok(Weld { exact, near: union.roots() })
 }
 
 fn longest_edge(points: &[Vec3], some: &[(f64, u32)]) -> f64 {
@@ -101,7 +105,9 @@ mod tests {
             let n = points.len() as u32;
             let faces: Vec<[u32; 3]> = (0..n).map(|i| [i, i, i]).collect();
             for reach in [0.0, 1.0 / 8192.0, 1.5 / 8192.0] {
-                prop_assert_eq!(weld(&points, &faces, reach).unwrap(), brute(&points, reach));
+                let found = weld(&points, &faces, reach).unwrap();
+                prop_assert_eq!(&found.near, &brute(&points, reach));
+                prop_assert_eq!(&found.exact, &brute(&points, 0.0));
             }
         }
     }

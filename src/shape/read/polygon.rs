@@ -9,7 +9,12 @@ const MOST_EARS: usize = 2048;
 /// Cuts the polygon with the given corners into triangles: ears in the polygon's
 /// mean plane (Newell's normal), which for a convex polygon is a fan.
 pub fn triangulate(corners: &[u32], vertices: &[[f64; 3]], out: &mut Vec<[u32; 3]>) {
+    // A loop that is gone round several times is one polygon.
     let n = corners.len();
+    let rounds =
+        |p: &usize| n.is_multiple_of(*p) && corners.iter().eq(corners[..*p].iter().cycle().take(n));
+    let n = (3..=n / 2).take(MOST_EARS).find(rounds).unwrap_or(n);
+    let corners = &corners[..n];
     let fan = |left: &[u32], out: &mut Vec<[u32; 3]>| {
         if let [a, rest @ ..] = left {
             out.extend(rest.windows(2).map(|w| [*a, w[0], w[1]]));
@@ -124,6 +129,14 @@ mod tests {
             assert!((signed.abs() - sum).abs() < 1e-12, "{signed} {sum}");
             assert_eq!(signed > 0.0, !reversed);
         }
+    }
+
+    #[test]
+    fn a_loop_gone_round_twice_is_one_polygon() {
+        let v = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let mut out = Vec::new();
+        triangulate(&[0, 1, 2, 3, 0, 1, 2, 3], &v, &mut out);
+        assert_eq!((out.len(), area(&v, &out)), (2, (1.0, 1.0)));
     }
 
     #[test]
