@@ -2,7 +2,7 @@
 #![cfg(feature = "io")]
 
 use morula::error::Error;
-use morula::shape::read::{FileOptions, Format, Meaning, RawType};
+use morula::shape::read::{FileOptions, Format, Meaning, RawType, file_labels};
 use morula::shape::voxels::Threshold;
 use morula::shape::{Bodies, Body, ImportOptions};
 use morula::{Result, Run, Shape};
@@ -302,6 +302,19 @@ fn the_meaning_of_values() {
     let wide: Vec<u8> = [1u32, 2, 100_000, 99_999].iter().flat_map(|v| v.to_le_bytes()).collect();
     let s = read(&npy("<u4", false, [1, 1, 4], &wide), "", &options()).unwrap();
     assert_eq!((s.report.solid_cells, s.report.threshold), (2, 2.0));
+}
+
+#[test]
+fn labels_of_a_file_are_listed() {
+    let folder = std::env::temp_dir().join(format!("morula-labels-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("labels.npy");
+    let data: Vec<u8> = [0u16, 7, 7, 300].iter().flat_map(|v| v.to_le_bytes()).collect();
+    std::fs::write(&path, npy("<u2", false, [1, 1, 4], &data)).unwrap();
+    let list = file_labels(&path, &options()).unwrap();
+    let found: Vec<_> = list.iter().map(|l| (l.label, l.cells, l.first[0], l.last[0])).collect();
+    assert_eq!(found, [(7, 2, 1, 2), (300, 1, 3, 3)]);
+    std::fs::remove_dir_all(folder).unwrap();
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Voxels from arrays: masks, bodies, grey volumes, labels.
 
 use morula::error::Error;
-use morula::shape::voxels::{F32_BINS, Grey, Threshold, list_labels, otsu};
+use morula::shape::voxels::{F32_BINS, Grey, Threshold, list_labels, otsu, widen_labels};
 use morula::shape::{Bodies, Body, ImportOptions, Layout, Voxels};
 use morula::{Run, Shape};
 use proptest::prelude::*;
@@ -136,6 +136,8 @@ fn bad_layouts_are_refused_by_name() {
         (with(&|l| l.spacing[0] = -1.0), 2, "spacing along x is -1"),
         (with(&|l| l.origin[0] = f64::INFINITY), 3, "origin along x is inf"),
         (with(&|l| l.spacing[0] = 1e300), 2, "1e60"),
+        (with(&|l| l.spacing[0] = 9e59), 2, "1e60"),
+        (with(&|l| l.origin[1] = -1e300), 2, "origin along y"),
         (with(&|l| l.spacing = [1e-70; 3]), 2, "1e-60"),
     ];
     for (error, status, text) in cases {
@@ -318,6 +320,8 @@ fn labels_that_are_not_there_are_named() {
     assert!(matches!(take(0), Err(Error::InvalidArgument(t)) if t.contains("label 0")));
     assert!(matches!(take(6), Err(Error::IndexOutOfRange(t)) if t.contains("label 6")));
     assert_eq!(take(5).unwrap().report.solid_cells, 2);
+    assert_eq!(widen_labels(&[0u8, 5, 255]).unwrap(), [0, 5, 255]);
+    assert_eq!(widen_labels(&[0u16, 5, 65535]).unwrap(), [0, 5, 65535]);
 }
 
 #[test]

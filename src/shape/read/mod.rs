@@ -14,7 +14,7 @@ mod text;
 mod tiff;
 mod voxels;
 
-use super::voxels::Threshold;
+use super::voxels::{LabelInfo, Threshold, list_labels};
 use super::{ImportOptions, Layout, Shape};
 use crate::error::{Error, Result, reserve};
 use crate::run::{Run, Stage};
@@ -150,6 +150,17 @@ impl Shape {
         let bytes = run.time(Stage::Read, || load(path, options.import.memory_limit))?;
         let name = path.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
         Shape::from_bytes(&bytes, &name, options, run)
+    }
+}
+
+/// The labels of a label volume in a file, ascending, without 0; [`Meaning::Label`]
+/// takes one of them.
+pub fn file_labels(path: &Path, options: &FileOptions) -> Result<Vec<LabelInfo>> {
+    let bytes = load(path, options.import.memory_limit)?;
+    let name = path.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
+    match read(&bytes, &name, options)? {
+        Raw::Voxels(v) => list_labels(&voxels::as_labels(v.values)?, &v.layout),
+        Raw::Mesh(_) => Err(Error::InvalidArgument(format!("{name} is a mesh: it has no labels"))),
     }
 }
 

@@ -4,7 +4,7 @@ use super::{FileOptions, Format, Meaning, RawValues, RawVoxels, npy, raw, tiff};
 use crate::error::{Error, Result, reserve};
 use crate::run::Run;
 use crate::shape::Shape;
-use crate::shape::voxels::{Grey, Threshold};
+use crate::shape::voxels::{Grey, Threshold, widen_labels};
 
 /// The voxels of a file.
 pub(super) fn read(bytes: &[u8], format: Format, options: &FileOptions) -> Result<RawVoxels> {
@@ -90,10 +90,11 @@ fn is_mask(values: &RawValues) -> bool {
     }
 }
 
-fn as_labels(values: RawValues) -> Result<Vec<u32>> {
+/// The values as labels.
+pub(super) fn as_labels(values: RawValues) -> Result<Vec<u32>> {
     match values {
-        RawValues::U8(v) => convert(&v, u32::from),
-        RawValues::U16(v) => convert(&v, u32::from),
+        RawValues::U8(v) => widen_labels(&v),
+        RawValues::U16(v) => widen_labels(&v),
         RawValues::U32(v) => Ok(v),
         RawValues::F32(v) => {
             // Below 2^32, whole and not negative.

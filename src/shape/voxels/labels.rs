@@ -2,7 +2,7 @@
 
 use super::mask::{CellBox, build};
 use super::{LabelInfo, Layout};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, reserve};
 use crate::run::{Run, Stage};
 use crate::shape::{ImportOptions, Shape};
 use std::collections::BTreeMap;
@@ -62,4 +62,11 @@ pub fn list_labels(labels: &[u32], layout: &Layout) -> Result<Vec<LabelInfo>> {
             touches_border: b.touches(layout.dims),
         })
         .collect())
+}
+
+/// Labels of 8 or 16 bits as the 32-bit ones that the other functions take.
+pub fn widen_labels<T: Copy + Into<u32>>(labels: &[T]) -> Result<Vec<u32>> {
+    let mut wide = reserve("labels", labels.len())?;
+    wide.extend(labels.iter().map(|&l| l.into()));
+    Ok(wide)
 }

@@ -59,8 +59,8 @@ pub(super) fn build(
     options: &ImportOptions,
     run: &Run,
 ) -> Result<Shape> {
-    let spacing = scaled(layout.spacing, options.length_unit)?;
-    let origin = scaled(layout.origin, options.length_unit)?;
+    let spacing = scaled("spacing", layout.spacing, options.length_unit, LARGEST)?;
+    let origin = scaled("origin", layout.origin, options.length_unit, 1e100)?;
     run.check(0.0, "looking for solid cells")?;
     let [nx, ny, nz] = layout.dims;
     let (_, whole) = extent(solid, layout.dims, run)
@@ -143,15 +143,16 @@ pub(super) fn build(
 const SMALLEST: f64 = 1e-60;
 const LARGEST: f64 = 1e60;
 
-fn scaled(v: [f64; 3], unit: f64) -> Result<[f64; 3]> {
+/// Lengths in the caller's unit. Sizes are compared by logarithms: a product
+/// that overflows would trap in a host that asks for it.
+fn scaled(what: &str, v: [f64; 3], unit: f64, most: f64) -> Result<[f64; 3]> {
     if !(unit.is_finite() && unit > 0.0) {
         return Err(Error::InvalidArgument(format!("length_unit is {unit}, not a number > 0")));
     }
-    for x in v {
-        // Tested by logarithms: the product itself would overflow and trap.
-        if x != 0.0 && x.abs().log2() + unit.log2() > 1000.0 {
+    for (x, axis) in v.iter().zip(["x", "y", "z"]) {
+        if *x != 0.0 && x.abs().log2() + unit.log2() > most.log2() {
             return Err(Error::InvalidArgument(format!(
-                "a length of {x:e} times the length_unit {unit:e} is too large"
+                "the {what} along {axis}, {x:e} times the length_unit {unit:e}, is more than {most:e}"
             )));
         }
     }

@@ -7,7 +7,7 @@ mod labels;
 mod mask;
 
 pub use grey::{F32_BINS, otsu};
-pub use labels::list_labels;
+pub use labels::{list_labels, widen_labels};
 
 use crate::error::{Error, Result};
 use crate::math::Vec3;
