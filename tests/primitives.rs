@@ -1,5 +1,6 @@
 //! The analytic particles: closed, outward, well-shaped, symmetric meshes that
 //! converge to the exact moments at second order.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use morula::error::Error;
 use morula::shape::{ImportOptions, Primitive};

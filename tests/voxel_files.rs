@@ -1,5 +1,6 @@
 //! Voxel files: npy, TIFF, raw.
 #![cfg(feature = "io")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use morula::error::Error;
 use morula::shape::read::{FileOptions, Format, Meaning, RawType, file_labels};

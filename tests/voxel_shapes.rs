@@ -1,4 +1,5 @@
 //! Voxels from arrays: masks, bodies, grey volumes, labels.
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use morula::error::Error;
 use morula::shape::voxels::{F32_BINS, Grey, Threshold, list_labels, otsu, widen_labels};
