@@ -65,7 +65,9 @@ impl Buffer {
             if area.abs() < 1e-12 {
                 continue;
             }
-            let normals = t.normals.map(|n| self.camera.direction(&n));
+            // Seen from behind (through a hole of an open mesh): lit from this side.
+            let side = if area < 0.0 { 1.0 } else { -1.0 };
+            let normals = t.normals.map(|n| self.camera.direction(&n).map(|v| side * v));
             let range = |i: usize, n: usize| {
                 let lo = a[i].min(b[i]).min(c[i]).ceil().clamp(0.0, n as f64);
                 let hi = (a[i].max(b[i]).max(c[i]).floor() + 1.0).clamp(0.0, n as f64);
@@ -90,6 +92,8 @@ impl Buffer {
                                 n[i] += *w as f32 * m[i];
                             }
                         }
+                        // A smoothed normal may turn away at the outline.
+                        n[2] = n[2].max(0.0);
                         *s = Sample { depth, normal: unit(n), id: t.id };
                     }
                 }

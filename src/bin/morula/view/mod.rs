@@ -45,7 +45,7 @@ pub struct Args {
     #[arg(long, default_value_t = 25.0, allow_hyphen_values = true, value_parser = angle)]
     elevation: f64,
     /// Width and height in pixels
-    #[arg(long, value_name = "WxH", default_value = "1500x640", value_parser = size)]
+    #[arg(long, value_name = "WxH", default_value = "1500x600", value_parser = size)]
     size: (usize, usize),
     /// End of the colour scale, in percent of the equivalent diameter [default: what fits]
     #[arg(long, value_name = "PERCENT", value_parser = crate::input::positive)]
@@ -98,7 +98,7 @@ impl Layout {
     fn of(width: usize, height: usize) -> Layout {
         let text = (width.min(3 * height) as f32 / 105.0).max(7.0);
         let top = (5.4 * text) as usize;
-        let foot = height as f32 - 5.2 * text;
+        let foot = height as f32 - 6.0 * text;
         let gap = (width / 100).max(2);
         let panel = [(width - 4 * gap) / 3, (foot as usize).saturating_sub(top).max(8)];
         let left = [0, 1, 2].map(|i| gap + i * (panel[0] + gap));
@@ -126,7 +126,7 @@ fn picture(
     let corners = target.iter().flat_map(|t| t.corners).map(|p| (p, 0.0));
     camera.frame(
         corners.chain(unit.iter().map(|s| (s.center, s.radius))),
-        layout.panel.map(|p| 0.94 * p as f64),
+        layout.panel.map(|p| 0.937 * p as f64),
     );
 
     let mut body = Buffer::new(layout.panel[0], layout.panel[1], FINE, &camera)?;
@@ -198,7 +198,7 @@ fn words(
     let diameter = equivalent_diameter(solid.moments().volume);
     let name = Path::new(&args.input).file_name().and_then(|n| n.to_str()).unwrap_or(&args.input);
     let figures = format!(
-        "n {count}   D {:.4}   coverage {:.1} %   overshoot {:.1} %   protrusion {:.1} % of d",
+        "n {count}   D {:.4}   coverage {:.1} %   overshoot {:.1} %   protrusion {:.1} % of d_eq",
         q.mismatch,
         100.0 * q.coverage,
         100.0 * q.overshoot,
@@ -219,8 +219,8 @@ fn words(
 fn bar(canvas: &mut Canvas, layout: &Layout, end: f64, dark: Rgb, soft: Rgb) {
     let t = layout.text;
     let half = 0.34 * layout.panel[0] as f32;
-    let (x0, x1) = (layout.middle(1) - half, layout.middle(1) + half);
-    let (y0, y1) = (layout.foot + 0.8 * t, layout.foot + 1.7 * t);
+    let [x0, x1] = [-half, half].map(|d| (layout.middle(1) + d).round());
+    let [y0, y1] = [0.8, 1.7].map(|d| (layout.foot + d * t).round());
     let steps = (x1 - x0) as usize;
     for i in 0..steps {
         let value = 2.0 * (i as f32 + 0.5) / steps as f32 - 1.0;

@@ -49,6 +49,8 @@ pub fn draw(
         })
         .collect();
     let half = 0.5 * FINE as f64;
+    // Near the surface the field rounds sharp corners off: there the exact distance counts.
+    let near = 0.75 * grid.spacing.max();
     let lines = run.pool().map(size[1], |row| {
         let mut line = vec![Mean::default(); size[0]];
         for (column, pixel) in line.iter_mut().enumerate() {
@@ -56,7 +58,11 @@ pub fn draw(
                 for x in column * FINE..(column + 1) * FINE {
                     let [u, v] = buffer.plane(x, y);
                     let p = camera.unproject([u, v, depth]);
-                    let to_target = grid.trilinear(field, &p) * camera.scale;
+                    let mut to_target = grid.trilinear(field, &p);
+                    if to_target.abs() < near {
+                        to_target = solid.surface().signed_distance(&p);
+                    }
+                    to_target *= camera.scale;
                     let mut to_union = f64::MAX;
                     let mut on_circle = false;
                     for c in &circles {

@@ -102,28 +102,40 @@ fn openness(buffer: &Buffer, x: usize, y: usize, s: &Sample, reach: f32) -> f32 
 
 /// How dark the line at a sample is: outlines, seams between spheres, creases.
 fn edge(buffer: &Buffer, x: usize, y: usize, s: &Sample, fine: usize) -> f32 {
-    let step = (fine / 2).max(1);
+    // About a pixel wide, more on large pictures.
+    let width = (buffer.width as f32 / (450.0 * fine as f32)).max(1.0);
+    let step = (0.7 * width * fine as f32).round().max(1.0);
     let mut line: f32 = 0.0;
-    for (dx, dy) in [(-1i64, 0i64), (1, 0), (0, -1), (0, 1)] {
-        let (u, v) = (x as i64 + dx * step as i64, y as i64 + dy * step as i64);
+    const ROUND: [(f32, f32); 8] = [
+        (1.0, 0.0),
+        (0.7, 0.7),
+        (0.0, 1.0),
+        (-0.7, 0.7),
+        (-1.0, 0.0),
+        (-0.7, -0.7),
+        (0.0, -1.0),
+        (0.7, -0.7),
+    ];
+    for (dx, dy) in ROUND {
+        let [u, v] = [x as f32 + dx * step, y as f32 + dy * step].map(|v| v.round() as i64);
         if u < 0 || v < 0 || u >= buffer.width as i64 || v >= buffer.height as i64 {
             continue;
         }
         let o = &buffer.samples[u as usize + buffer.width * v as usize];
         if !o.hit() {
-            line = line.max(0.75);
+            line = line.max(0.70);
             continue;
         }
         // On a slope the depth changes by itself: only what exceeds it is a step.
-        let slope = step as f32 * (1.0 - s.normal[2]) / s.normal[2].max(0.05);
+        let slope = step * (1.0 - s.normal[2]) / s.normal[2].max(0.05);
         let drop = s.depth - o.depth;
         let facing: f32 = (0..3).map(|i| s.normal[i] * o.normal[i]).sum();
         if drop > 3.0 * slope + 4.0 * fine as f32 {
             line = line.max(0.6);
         } else if s.id != o.id {
-            line = line.max(0.22);
+            line = line.max(0.28);
         } else if facing < 0.8 {
-            line = line.max(0.30);
+            line = line.max(0.45);
         }
     }
     line
