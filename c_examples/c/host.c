@@ -1,0 +1,98 @@
+/* The host lives: its floating-point traps stay as they are and are not sprung,
+ * a forked child can make clumps on threads, nothing is printed. */
+#define _GNU_SOURCE
+#include "check.h"
+
+#include <fenv.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static void one_clump(morula_shape *shape, int32_t threads, uint32_t wants, double xyzr[30][4]) {
+  morula_clump_options options;
+  morula_clump *clump = NULL;
+  const double planes[1] = {0.05};
+  OK(morula_clump_options_init(&options, sizeof options));
+  options.spheres = 30;
+  options.threads = threads;
+  options.wants = wants;
+  options.plane_tolerances = planes;
+  options.plane_tolerance_count = 1;
+  OK(morula_clump_from_shape(shape, NULL, &options, &clump));
+  OK(morula_clump_copy_spheres(clump, 30, xyzr[0]));
+  morula_clump_free(clump);
+}
+
+static void traps(void) {
+#ifdef __GLIBC__
+  const uint32_t all = MORULA_WANT_OVERLAP | MORULA_WANT_SURFACE | MORULA_WANT_MOMENTS;
+  static double xyzr[30][4];
+  feclearexcept(FE_ALL_EXCEPT);
+  feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+  fesetround(FE_UPWARD);
+  const int before = fegetexcept();
+  for (size_t i = 0; morula_primitive_name(i); i++) {
+    morula_shape *shape = NULL;
+    morula_moments moments = {0};
+    moments.struct_size = sizeof moments;
+    OK(morula_shape_from_primitive(morula_primitive_name(i), NULL, NULL, 0, 32, 3, NULL, &shape));
+    OK(morula_shape_moments(shape, 1, &moments));
+    one_clump(shape, 1, all, xyzr);
+    morula_shape_free(shape);
+  }
+  morula_shape *shape = l_shape();
+  one_clump(shape, 2, all, xyzr);
+  morula_shape_free(shape);
+  CHECK(fegetexcept() == before && fegetround() == FE_UPWARD);
+  fedisableexcept(FE_ALL_EXCEPT);
+  feclearexcept(FE_ALL_EXCEPT);
+  fesetround(FE_TONEAREST);
+#else
+  puts("skipped: the C library has no feenableexcept");
+#endif
+}
+
+static void forks(void) {
+  morula_shape *shape = l_shape();
+  static double here[30][4], there[30][4];
+  one_clump(shape, 2, MORULA_WANT_NOTHING, here);
+  const pid_t child = fork();
+  CHECK(child >= 0);
+  if (child == 0) {
+    alarm(60); /* a hang ends the child, and the test */
+    one_clump(shape, 2, MORULA_WANT_NOTHING, there);
+    _exit(checks_failed != 0 || memcmp(here, there, sizeof here) != 0);
+  }
+  int status = -1;
+  CHECK(waitpid(child, &status, 0) == child);
+  CHECK(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  morula_shape_free(shape);
+}
+
+/* What a failing and a succeeding call print: nothing. */
+static void silence(void) {
+  char name[] = "morula_silence_XXXXXX";
+  const int file = mkstemp(name), out = dup(1), err = dup(2);
+  static double xyzr[30][4];
+  morula_shape *shape = l_shape(), *none = NULL;
+  CHECK(file >= 0);
+  fflush(stdout);
+  dup2(file, 1);
+  dup2(file, 2);
+  one_clump(shape, 2, MORULA_WANT_OVERLAP, xyzr);
+  const int32_t status = morula_shape_from_file("no/such.stl", NULL, NULL, &none);
+  dup2(out, 1);
+  dup2(err, 2);
+  CHECK(status == MORULA_STATUS_IO);
+  CHECK(lseek(file, 0, SEEK_END) == 0);
+  close(file);
+  unlink(name);
+  morula_shape_free(shape);
+}
+
+int main(void) {
+  traps();
+  forks();
+  silence();
+  return checks_done();
+}

@@ -1,0 +1,429 @@
+// A thin C++17 face of morula.h: handles that free themselves, std::vector and
+// std::array instead of pointers, exceptions instead of statuses. Everything is
+// inline; link against the same library as for C.
+//
+// Options and results are the structs of morula.h: morula::ClumpOptions is
+// morula_clump_options filled with the defaults, and so on.
+#ifndef MORULA_HPP
+#define MORULA_HPP
+
+#include "morula.h"
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace morula {
+
+/// A call failed: the status and the library's sentence.
+class Error : public std::runtime_error {
+ public:
+  Error(std::int32_t status, const char *message) : std::runtime_error(message), status_(status) {}
+  /// One of MORULA_STATUS_*.
+  std::int32_t status() const noexcept { return status_; }
+  /// Its name, for instance "NOT_FINITE".
+  const char *name() const noexcept { return morula_status_name(status_); }
+
+ private:
+  std::int32_t status_;
+};
+
+/// Throws Error unless `status` is MORULA_STATUS_OK.
+inline void check(std::int32_t status) {
+  if (status != MORULA_STATUS_OK) throw Error(status, morula_last_error_message());
+}
+
+/// A component sphere.
+struct Sphere {
+  std::array<double, 3> center;
+  double radius;
+};
+
+/// Called with the fraction done; return false to cancel. It may throw: the
+/// call is then cancelled and the exception goes on to the caller.
+using Progress = std::function<bool(double)>;
+
+namespace detail {
+
+struct Free {
+  void operator()(morula_shape *p) const noexcept { morula_shape_free(p); }
+  void operator()(morula_solid *p) const noexcept { morula_solid_free(p); }
+  void operator()(morula_clump *p) const noexcept { morula_clump_free(p); }
+};
+template <class T>
+using Handle = std::unique_ptr<T, Free>;
+
+template <class Options>
+Options defaults(std::int32_t (*init)(Options *, std::size_t)) {
+  Options options;
+  check(init(&options, sizeof options));
+  return options;
+}
+
+/// A struct that the library fills.
+template <class T, class Fill>
+T filled(Fill fill) {
+  T value{};
+  value.struct_size = sizeof value;
+  check(fill(&value));
+  return value;
+}
+
+template <class Copy>
+std::string text(Copy copy) {
+  std::size_t length = 0;
+  check(copy(0, nullptr, &length));
+  std::string text(length + 1, '\0');
+  check(copy(text.size(), &text[0], nullptr));
+  text.resize(length);
+  return text;
+}
+
+template <class Count, class Copy>
+std::vector<std::string> texts(Count count, Copy copy) {
+  std::size_t n = 0;
+  check(count(&n));
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < n; ++i)
+    all.push_back(text([&](std::size_t capacity, char *to, std::size_t *length) {
+      return copy(i, capacity, to, length);
+    }));
+  return all;
+}
+
+/// Keeps a std::function for the time of a call, and an exception that it threw.
+struct Callback {
+  Progress progress;
+  std::exception_ptr thrown;
+  static std::int32_t call(double fraction, void *user) noexcept {
+    auto *self = static_cast<Callback *>(user);
+    try {
+      return self->progress(fraction) ? 0 : 1;
+    } catch (...) {
+      self->thrown = std::current_exception();
+      return 1;
+    }
+  }
+  template <class Options>
+  void enter(Options &options) {
+    if (!progress) return;
+    options.progress = &Callback::call;
+    options.user = this;
+  }
+};
+
+/// Runs a call that makes a handle, with the progress function if there is one.
+template <class T, class Options, class Make>
+Handle<T> made(Options options, Progress progress, Make make) {
+  Callback callback{std::move(progress), nullptr};
+  callback.enter(options);
+  T *raw = nullptr;
+  const std::int32_t status = make(options, &raw);
+  Handle<T> handle(raw);
+  if (callback.thrown) std::rethrow_exception(callback.thrown);
+  check(status);
+  return handle;
+}
+
+}  // namespace detail
+
+/// morula_import_options with the defaults.
+struct ImportOptions : morula_import_options {
+  ImportOptions() : morula_import_options(detail::defaults(morula_import_options_init)) {}
+};
+/// morula_file_options with the defaults.
+struct FileOptions : morula_file_options {
+  FileOptions() : morula_file_options(detail::defaults(morula_file_options_init)) {}
+};
+/// morula_solid_options with the defaults.
+struct SolidOptions : morula_solid_options {
+  SolidOptions() : morula_solid_options(detail::defaults(morula_solid_options_init)) {}
+};
+/// morula_clump_options with the defaults.
+struct ClumpOptions : morula_clump_options {
+  ClumpOptions() : morula_clump_options(detail::defaults(morula_clump_options_init)) {}
+};
+
+/// Voxels in space: cells along x, y, z (x fastest), edge lengths, lower corner.
+struct Layout {
+  std::array<std::size_t, 3> dims;
+  std::array<double, 3> spacing{1.0, 1.0, 1.0};
+  std::array<double, 3> origin{0.0, 0.0, 0.0};
+
+  /// Throws unless `size` is the number of cells.
+  void require(std::size_t size) const {
+    if (dims[0] == 0 || dims[1] == 0 || size / dims[0] / dims[1] != dims[2] ||
+        size != dims[0] * dims[1] * dims[2])
+      throw Error(MORULA_STATUS_INVALID_ARGUMENT, "the array's size is not the product of dims");
+  }
+};
+
+/// A checked shape: something with an inside.
+class Shape {
+ public:
+  /// From x, y, z of the vertices and three indices for each triangle.
+  static Shape from_mesh(const std::vector<double> &vertices,
+                         const std::vector<std::uint32_t> &triangles,
+                         const ImportOptions &options = {}, Progress progress = {}) {
+    if (vertices.size() % 3 != 0 || triangles.size() % 3 != 0)
+      throw Error(MORULA_STATUS_INVALID_ARGUMENT, "vertices and triangles come in threes");
+    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+      return morula_shape_from_mesh(vertices.data(), vertices.size() / 3, triangles.data(),
+                                    triangles.size() / 3, &o, out);
+    });
+  }
+  /// From a file.
+  static Shape from_file(const std::string &path, const ImportOptions &options = {},
+                         const FileOptions &file = {}, Progress progress = {}) {
+    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+      return morula_shape_from_file(path.c_str(), &o, &file, out);
+    });
+  }
+  /// From the bytes of a file; `name` helps where they do not tell the format.
+  static Shape from_bytes(const std::vector<std::uint8_t> &bytes, const std::string &name = {},
+                          const ImportOptions &options = {}, const FileOptions &file = {},
+                          Progress progress = {}) {
+    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+      return morula_shape_from_bytes(bytes.data(), bytes.size(), name.c_str(), &o, &file, out);
+    });
+  }
+  /// From voxels: those that are not 0 are solid.
+  static Shape from_mask(const std::vector<std::uint8_t> &mask, const Layout &layout,
+                         const ImportOptions &options = {}, Progress progress = {}) {
+    layout.require(mask.size());
+    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+      return morula_shape_from_mask(mask.data(), layout.dims.data(), layout.spacing.data(),
+                                    layout.origin.data(), &o, out);
+    });
+  }
+  /// From grey values; solid above *threshold, or above Otsu's threshold for a null pointer.
+  template <class T>
+  static Shape from_grey(const std::vector<T> &values, const Layout &layout,
+                         const double *threshold = nullptr, const ImportOptions &options = {},
+                         Progress progress = {}) {
+    layout.require(values.size());
+    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+      return grey(values.data(), layout.dims.data(), layout.spacing.data(), layout.origin.data(),
+                  threshold, &o, out);
+    });
+  }
+  /// From one label of a label volume.
+  static Shape from_label(const std::vector<std::uint32_t> &labels, const Layout &layout,
+                          std::uint32_t label, const ImportOptions &options = {},
+                          Progress progress = {}) {
+    layout.require(labels.size());
+    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+      return morula_shape_from_label(labels.data(), layout.dims.data(), layout.spacing.data(),
+                                     layout.origin.data(), label, &o, out);
+    });
+  }
+  /// A built-in analytic particle; `parameters` as {"radius", 2.0}.
+  static Shape from_primitive(const std::string &name,
+                              const std::vector<std::pair<std::string, double>> &parameters = {},
+                              std::uint32_t segments = 0, std::uint64_t seed = 0,
+                              const ImportOptions &options = {}, Progress progress = {}) {
+    std::vector<const char *> keys;
+    std::vector<double> values;
+    for (const auto &parameter : parameters) {
+      keys.push_back(parameter.first.c_str());
+      values.push_back(parameter.second);
+    }
+    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+      return morula_shape_from_primitive(name.c_str(), keys.data(), values.data(), keys.size(),
+                                         segments, seed, &o, out);
+    });
+  }
+
+  /// What was found in the input and what was done about it.
+  morula_report report() const {
+    return detail::filled<morula_report>(
+        [&](morula_report *r) { return morula_shape_report(get(), r); });
+  }
+  /// What a user should know about the input.
+  std::vector<std::string> notes() const {
+    return detail::texts(
+        [&](std::size_t *n) { return morula_shape_note_count(get(), n); },
+        [&](std::size_t i, std::size_t capacity, char *to, std::size_t *length) {
+          return morula_shape_copy_note(get(), i, capacity, to, length);
+        });
+  }
+  /// Mass, centre and inertia.
+  morula_moments moments(double density = 1.0) const {
+    return detail::filled<morula_moments>(
+        [&](morula_moments *m) { return morula_shape_moments(get(), density, m); });
+  }
+  /// The C handle; it stays this object's.
+  const morula_shape *get() const noexcept { return handle_.get(); }
+
+ private:
+  explicit Shape(detail::Handle<morula_shape> handle) : handle_(std::move(handle)) {}
+  template <class Make>
+  static Shape make(const ImportOptions &options, Progress progress, Make call) {
+    return Shape(detail::made<morula_shape>(options, std::move(progress), call));
+  }
+  template <class... Args>
+  static std::int32_t grey(const std::uint8_t *v, Args... rest) {
+    return morula_shape_from_grey_u8(v, rest...);
+  }
+  template <class... Args>
+  static std::int32_t grey(const std::uint16_t *v, Args... rest) {
+    return morula_shape_from_grey_u16(v, rest...);
+  }
+  template <class... Args>
+  static std::int32_t grey(const float *v, Args... rest) {
+    return morula_shape_from_grey_f32(v, rest...);
+  }
+  detail::Handle<morula_shape> handle_;
+};
+
+/// What a label volume holds of one label.
+struct Label {
+  std::uint32_t id;
+  std::uint64_t cells;
+  std::array<std::uint64_t, 3> first, last;
+  bool touches_border;
+};
+
+/// The labels of a volume, ascending, without 0.
+inline std::vector<Label> labels(const std::vector<std::uint32_t> &volume, const Layout &layout) {
+  layout.require(volume.size());
+  std::size_t n = 0;
+  check(morula_labels_count(volume.data(), layout.dims.data(), &n));
+  std::vector<std::uint32_t> ids(n);
+  std::vector<std::uint64_t> cells(n), boxes(6 * n);
+  std::vector<std::int32_t> touches(n);
+  check(morula_labels_copy(volume.data(), layout.dims.data(), n, ids.data(), cells.data(),
+                           boxes.data(), touches.data()));
+  std::vector<Label> all;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint64_t *b = &boxes[6 * i];
+    all.push_back({ids[i], cells[i], {b[0], b[1], b[2]}, {b[3], b[4], b[5]}, touches[i] != 0});
+  }
+  return all;
+}
+
+/// A shape with a grid.
+class Solid {
+ public:
+  explicit Solid(const Shape &shape, const SolidOptions &options = {}, Progress progress = {})
+      : handle_(detail::made<morula_solid>(
+            options, std::move(progress), [&](const auto &o, morula_solid **out) {
+              return morula_solid_from_shape(shape.get(), &o, out);
+            })) {}
+
+  /// The grid: cells, edge lengths, lower corner of the first cell.
+  Layout grid() const {
+    Layout layout{};
+    check(morula_solid_grid(get(), layout.dims.data(), layout.spacing.data(),
+                            layout.origin.data()));
+    return layout;
+  }
+  /// Exact signed distances, negative inside; x, y, z of each point.
+  std::vector<double> distance(const std::vector<double> &points) const {
+    std::vector<double> distances(points.size() / 3);
+    check(morula_solid_distance(get(), distances.size(), points.data(), distances.data()));
+    return distances;
+  }
+  std::vector<std::string> notes() const {
+    return detail::texts(
+        [&](std::size_t *n) { return morula_solid_note_count(get(), n); },
+        [&](std::size_t i, std::size_t capacity, char *to, std::size_t *length) {
+          return morula_solid_copy_note(get(), i, capacity, to, length);
+        });
+  }
+  morula_moments moments(double density = 1.0) const {
+    return detail::filled<morula_moments>(
+        [&](morula_moments *m) { return morula_solid_moments(get(), density, m); });
+  }
+  const morula_solid *get() const noexcept { return handle_.get(); }
+
+ private:
+  detail::Handle<morula_solid> handle_;
+};
+
+/// A clump.
+class Clump {
+ public:
+  explicit Clump(const Solid &solid, const ClumpOptions &options = {}, Progress progress = {})
+      : handle_(detail::made<morula_clump>(
+            options, std::move(progress), [&](const auto &o, morula_clump **out) {
+              return morula_clump_from_solid(solid.get(), &o, out);
+            })) {}
+  /// Makes the solid inside.
+  explicit Clump(const Shape &shape, const ClumpOptions &options = {},
+                 const SolidOptions &solid = {}, Progress progress = {})
+      : handle_(detail::made<morula_clump>(
+            options, std::move(progress), [&](const auto &o, morula_clump **out) {
+              return morula_clump_from_shape(shape.get(), &solid, &o, out);
+            })) {}
+
+  std::size_t size() const {
+    std::size_t n = 0;
+    check(morula_clump_sphere_count(get(), &n));
+    return n;
+  }
+  /// The spheres in the frame that the options asked for.
+  std::vector<Sphere> spheres() const {
+    std::vector<double> xyzr(4 * size());
+    check(morula_clump_copy_spheres(get(), xyzr.size() / 4, xyzr.data()));
+    std::vector<Sphere> all;
+    for (std::size_t i = 0; i < xyzr.size(); i += 4)
+      all.push_back({{xyzr[i], xyzr[i + 1], xyzr[i + 2]}, xyzr[i + 3]});
+    return all;
+  }
+  /// One of MORULA_STOPPED_*.
+  std::int32_t stopped() const {
+    std::int32_t stopped = 0;
+    check(morula_clump_stopped(get(), &stopped));
+    return stopped;
+  }
+  /// Why there are fewer spheres than were asked for; else empty.
+  std::string note() const {
+    return detail::text([&](std::size_t capacity, char *to, std::size_t *length) {
+      return morula_clump_copy_note(get(), capacity, to, length);
+    });
+  }
+  /// Mass, centre and inertia of the target, in the input frame.
+  morula_moments moments(double density = 1.0) const {
+    return detail::filled<morula_moments>(
+        [&](morula_moments *m) { return morula_clump_moments(get(), density, m); });
+  }
+  morula_overlap overlap() const {
+    return detail::filled<morula_overlap>(
+        [&](morula_overlap *o) { return morula_clump_overlap(get(), o); });
+  }
+  morula_surface surface() const {
+    return detail::filled<morula_surface>(
+        [&](morula_surface *s) { return morula_clump_surface(get(), s); });
+  }
+  /// Exposed area of each sphere.
+  std::vector<double> exposed_areas() const {
+    std::vector<double> areas(size());
+    check(morula_clump_copy_exposed_areas(get(), areas.size(), areas.data()));
+    return areas;
+  }
+  /// Most spheres that one plane touches, for each of the `count` tolerances of the options.
+  std::vector<std::uint32_t> plane_contacts(std::size_t count) const {
+    std::vector<std::uint32_t> counts(count);
+    check(morula_clump_copy_plane_contacts(get(), counts.size(), counts.data()));
+    return counts;
+  }
+  morula_counters counters() const {
+    return detail::filled<morula_counters>(
+        [&](morula_counters *c) { return morula_clump_counters(get(), c); });
+  }
+  const morula_clump *get() const noexcept { return handle_.get(); }
+
+ private:
+  detail::Handle<morula_clump> handle_;
+};
+
+}  // namespace morula
+
+#endif
