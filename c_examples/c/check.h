@@ -36,7 +36,7 @@ static int checks_made, checks_failed;
 
 #define NEAR(a, b, tolerance) CHECK(fabs((a) - (b)) <= (tolerance))
 
-static int checks_done(void) {
+static inline int checks_done(void) {
   printf("%d checks, %d failed\n", checks_made, checks_failed);
   return checks_failed != 0;
 }
@@ -70,7 +70,7 @@ static void l_mesh(double vertices[36], uint32_t triangles[60], uint32_t base) {
   }
 }
 
-static morula_shape *l_shape(void) {
+static inline morula_shape *l_shape(void) {
   double vertices[36];
   uint32_t triangles[60];
   morula_shape *shape = NULL;
@@ -84,7 +84,7 @@ static morula_shape *l_shape(void) {
 static const double L_CENTRE[3] = {10 + (0.5 + 1.5 + 2.5 + 0.5) / 4,
                                    20 + (0.5 + 0.5 + 0.5 + 1.5) / 4, 30.5};
 
-static void l_inertia(double inertia[6]) {
+static inline void l_inertia(double inertia[6]) {
   static const double cubes[4][2] = {{0.5, 0.5}, {1.5, 0.5}, {2.5, 0.5}, {0.5, 1.5}};
   memset(inertia, 0, 6 * sizeof *inertia);
   for (int i = 0; i < 4; i++) {
