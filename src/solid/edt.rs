@@ -60,6 +60,7 @@ pub fn squared_distance_into(
         Some(d) => (d * metric.factor) as f32,
         None => metric.diagonal_squared as f32,
     };
+    out.fill(0.0);
     transform::<false>(mask, false, dims, &metric, pool, out, scratch, finish)
 }
 
@@ -104,7 +105,7 @@ impl Metric {
 /// The transform. A cell is solid when `(mask != 0) != flip`. `finish` makes the result
 /// of a solid cell from the squared distance (in the units of `metric`; `None` when
 /// there is no background) and, if `TRACK`, the steps to that background cell along
-/// x, y, z, without sign. Background cells get 0.
+/// x, y, z, without sign. Background cells keep what `out` held (0 where it grows).
 #[allow(clippy::too_many_arguments)]
 pub(super) fn transform<const TRACK: bool>(
     mask: &[u8],
@@ -274,7 +275,6 @@ impl Work {
                 self.plane_source[y * nx..][..nx].copy_from_slice(&self.source[..nx]);
             }
         }
-        out.fill(0.0);
         if !solid {
             return;
         }
