@@ -6,13 +6,13 @@
 //! sampled are edges, corners and curvature.
 
 use super::{Columns, Grid};
-use crate::error::{Result, filled};
+use crate::error::{Error, Result, filled};
 use crate::run::Run;
 use crate::shape::Body;
 
 /// Columns per cell along each sampled axis. Even, so that no column runs through cell centres,
 /// where the faces of symmetric bodies lie.
-const COLUMNS: usize = 4;
+const COLUMNS: usize = 2;
 /// For meshes that need winding numbers, at many times the cost of a column.
 const COLUMNS_OPEN: usize = 2;
 /// The lattice is widened by this about the box's middle: faces at round fractions of a cell
@@ -25,7 +25,7 @@ const AT_ONCE: usize = 1 << 21;
 
 /// 1 for the cells of `grid` of which more than half is covered by `body`, a mesh that keeps
 /// `padding` cells clear around it.
-pub(super) fn inside(body: &Body, grid: &Grid, padding: usize, run: &Run) -> Result<Vec<u8>> {
+pub fn inside(body: &Body, grid: &Grid, padding: usize, run: &Run) -> Result<Vec<u8>> {
     let k = match body {
         Body::Mesh(m) if !m.clean => COLUMNS_OPEN,
         _ => COLUMNS,
@@ -36,6 +36,11 @@ pub(super) fn inside(body: &Body, grid: &Grid, padding: usize, run: &Run) -> Res
 /// The same by `k` × `k` columns a cell.
 fn covered(body: &Body, grid: &Grid, padding: usize, k: usize, run: &Run) -> Result<Vec<u8>> {
     let [nx, ny, nz] = grid.dims;
+    if padding >= ny.div_ceil(2) || padding >= nz.div_ceil(2) {
+        return Err(Error::InvalidArgument(format!(
+            "padding of {padding} cells leaves nothing of a grid of {nx} × {ny} × {nz}"
+        )));
+    }
     let mut inside = filled("the inside of the grid", grid.len(), 0u8)?;
     let h = grid.spacing.x;
     let step = grid.spacing.map(|h| h * (WIDER / k as f64));

@@ -3,7 +3,7 @@
 //! and intervals, exact moments. All in the unit frame.
 
 pub mod columns;
-mod coverage;
+pub mod coverage;
 pub mod edt;
 pub mod field;
 pub mod grid;
