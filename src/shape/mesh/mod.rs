@@ -30,8 +30,10 @@ pub struct Mesh {
 
 impl Mesh {
     /// The corners of face `i`.
+    #[inline]
     pub fn corners(&self, i: usize) -> [Vec3; 3] {
-        self.faces[i].map(|v| self.vertices[v as usize])
+        let [a, b, c] = self.faces[i];
+        [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
     }
 }
 

@@ -47,23 +47,41 @@ pub(in crate::solid) fn closed(mesh: &Mesh) -> Result<bool> {
 pub(super) struct Binned<'a> {
     mesh: &'a Mesh,
     lattice: Lattice,
+    vertices: Vec<Turned>,
     starts: Vec<usize>,
     faces: Vec<u32>,
 }
 
+/// A vertex on the lattice.
+struct Turned {
+    /// Both lattice coordinates, and along the column.
+    at: [f64; 3],
+    /// Number of columns, and of rows, below it.
+    below: [u32; 2],
+}
+
 impl<'a> Binned<'a> {
     pub(super) fn new(mesh: &'a Mesh, lattice: &Lattice) -> Result<Self> {
+        let mut vertices = reserve("vertices on the lattice", mesh.vertices.len())?;
+        vertices.extend(mesh.vertices.iter().map(|v| {
+            let at = lattice.turn(v);
+            let below = [lattice.below(0, at[0]) as u32, lattice.below(1, at[1]) as u32];
+            Turned { at, below }
+        }));
         let bands = lattice.dims[1].div_ceil(BAND);
-        // Rows of a face: those at or above its lowest vertex and below its highest.
+        // Bands of a face, from its rows: those at or above its lowest vertex and below its
+        // highest. A face between two rows or two columns has none.
         let range = |f: usize| {
-            let v = mesh.corners(f).map(|p| lattice.turn(&p)[1]);
-            let first = lattice.below(1, v[0].min(v[1]).min(v[2]));
-            let end = lattice.below(1, v[0].max(v[1]).max(v[2]));
-            (end > first).then(|| first / BAND..(end - 1) / BAND + 1)
+            let [columns, rows] = extent(mesh, &vertices, f);
+            if columns.is_empty() || rows.is_empty() {
+                0..0
+            } else {
+                rows.start as usize / BAND..(rows.end as usize - 1) / BAND + 1
+            }
         };
         let mut starts = filled("bands", bands + 1, 0usize)?;
         for f in 0..mesh.faces.len() {
-            for b in range(f).into_iter().flatten() {
+            for b in range(f) {
                 starts[b + 1] += 1;
             }
         }
@@ -73,12 +91,12 @@ impl<'a> Binned<'a> {
         let mut next = starts.clone();
         let mut faces = filled("faces in bands", starts[bands], 0u32)?;
         for f in 0..mesh.faces.len() {
-            for b in range(f).into_iter().flatten() {
+            for b in range(f) {
                 faces[next[b]] = f as u32;
                 next[b] += 1;
             }
         }
-        Ok(Binned { mesh, lattice: *lattice, starts, faces })
+        Ok(Binned { mesh, lattice: *lattice, vertices, starts, faces })
     }
 
     /// The crossings of the rows `first..first + rows` (one band), sorted by column and then
@@ -94,17 +112,12 @@ impl<'a> Binned<'a> {
 
     fn face(&self, f: usize, first: usize, rows: usize, out: &mut Vec<Crossing>) -> Result<()> {
         let l = &self.lattice;
-        let p = self.mesh.corners(f).map(|p| l.turn(&p));
-        let lowest = p[0][1].min(p[1][1]).min(p[2][1]);
-        let highest = p[0][1].max(p[1][1]).max(p[2][1]);
-        let left = p[0][0].min(p[1][0]).min(p[2][0]);
-        let right = p[0][0].max(p[1][0]).max(p[2][0]);
+        let [p, q, r] = self.mesh.faces[f];
+        let p = [p, q, r].map(|v| self.vertices[v as usize].at);
         // Cut places are clamped to the edges, so no column outside these is reached.
-        if l.below(0, left) == l.below(0, right) {
-            return Ok(());
-        }
-        let begin = l.below(1, lowest).max(first);
-        let end = l.below(1, highest).min(first + rows);
+        let [_, range] = extent(self.mesh, &self.vertices, f);
+        let begin = (range.start as usize).max(first);
+        let end = (range.end as usize).min(first + rows);
         for b in begin..end {
             let v = l.at(1, b);
             let (mut rising, mut falling) = (None, None);
@@ -141,10 +154,22 @@ impl<'a> Binned<'a> {
     }
 }
 
+/// Columns and rows that the face `f` may cross.
+fn extent(mesh: &Mesh, vertices: &[Turned], f: usize) -> [std::ops::Range<u32>; 2] {
+    let [a, b, c] = mesh.faces[f];
+    let [a, b, c] = [&vertices[a as usize], &vertices[b as usize], &vertices[c as usize]];
+    let range = |k: usize| {
+        let [a, b, c] = [a.below[k], b.below[k], c.below[k]];
+        a.min(b).min(c)..a.max(b).max(c)
+    };
+    [range(0), range(1)]
+}
+
 /// Where the edge from `p` up to `q` meets the row `v`: place on the row, and along the column.
 fn cut(p: [f64; 3], q: [f64; 3], v: f64) -> [f64; 2] {
     let t = (v - p[1]) / (q[1] - p[1]);
-    [0, 2].map(|k| (p[k] + t * (q[k] - p[k])).clamp(p[k].min(q[k]), p[k].max(q[k])))
+    let along = |k: usize| (p[k] + t * (q[k] - p[k])).clamp(p[k].min(q[k]), p[k].max(q[k]));
+    [along(0), along(2)]
 }
 
 /// Sorted by column (counting sort) and then along the column.
