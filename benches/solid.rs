@@ -51,15 +51,13 @@ fn cpu(since: Instant) -> f64 {
         .map_or_else(|| since.elapsed().as_secs_f64() * 1e3, |ns| ns * 1e-6)
 }
 
-/// The least of a few runs, in CPU milliseconds.
-fn least(mut f: impl FnMut()) -> f64 {
+/// The mean of ten runs, in CPU milliseconds (the system counts them in steps of some ms).
+fn mean(mut f: impl FnMut()) -> f64 {
     let since = Instant::now();
-    let time = |_| {
-        let start = cpu(since);
-        f();
-        cpu(since) - start
-    };
-    (0..5).map(time).fold(f64::MAX, f64::min)
+    f();
+    let start = cpu(since);
+    (0..10).for_each(|_| f());
+    (cpu(since) - start) / 10.0
 }
 
 fn inside(c: &mut Criterion) {
@@ -69,8 +67,8 @@ fn inside(c: &mut Criterion) {
     group.warm_up_time(Duration::from_millis(200));
     for (name, shape) in shapes() {
         let (g, faces) = (grid(&shape), shape.report.faces);
-        let ms = least(|| drop(coverage::inside(&shape.body, &g, PADDING, &run)));
-        let integrals = least(|| drop(moments::moments(&shape.body, &run)));
+        let ms = mean(|| drop(coverage::inside(&shape.body, &g, PADDING, &run)));
+        let integrals = mean(|| drop(moments::moments(&shape.body, &run)));
         println!(
             "{name}: {faces} faces, {CELLS} cells: inside {ms:.1} ms (bound 50), moments {integrals:.1} ms"
         );

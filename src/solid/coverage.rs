@@ -12,7 +12,7 @@ use crate::shape::Body;
 
 /// Columns per cell along each sampled axis. Even, so that no column runs through cell centres,
 /// where the faces of symmetric bodies lie.
-const COLUMNS: usize = 2;
+const COLUMNS: usize = 4;
 /// For meshes that need winding numbers, at many times the cost of a column.
 const COLUMNS_OPEN: usize = 2;
 /// The lattice is widened by this about the box's middle: faces at round fractions of a cell
