@@ -37,6 +37,10 @@ impl CellBox {
         [0, 1, 2].map(|a| self.last[a] - self.first[a] + 1)
     }
 
+    fn cells(&self) -> u64 {
+        self.dims().iter().map(|&n| n as u64).product()
+    }
+
     /// The smallest box that holds both.
     pub fn join(self, other: CellBox) -> CellBox {
         CellBox {
@@ -54,7 +58,7 @@ impl CellBox {
 /// The shape of the cells for which `solid(index)` holds, in an array that
 /// [`Layout::check`] has passed.
 pub(super) fn build(
-    solid: &(dyn Fn(usize) -> bool + Sync),
+    solid: &(impl Fn(usize) -> bool + Sync),
     layout: &Layout,
     options: &ImportOptions,
     run: &Run,
@@ -63,7 +67,7 @@ pub(super) fn build(
     let origin = scaled("origin", layout.origin, options.length_unit, 1e100)?;
     run.check(0.0, "looking for solid cells")?;
     let [nx, ny, nz] = layout.dims;
-    let (_, whole) = extent(solid, layout.dims, run)
+    let whole = extent(solid, layout.dims, run)
         .ok_or_else(|| Error::Empty(format!("none of the {nx} x {ny} x {nz} voxels is solid")))?;
 
     limit(whole, 0, options)?;
@@ -95,13 +99,14 @@ pub(super) fn build(
                     all - size
                 ));
                 components.keep(largest, &mut cells);
-                let inner = extent(&|i| cells.get(i).is_some_and(|&v| v != 0), dims, run);
-                let (_, inner) =
-                    inner.ok_or_else(|| Error::Internal("the largest body is empty".into()))?;
+                drop(components);
+                let inner = extent(&|i| cells.get(i).is_some_and(|&v| v != 0), dims, run)
+                    .ok_or_else(|| Error::Internal("the largest body is empty".into()))?;
                 kept = CellBox {
                     first: [0, 1, 2].map(|a| whole.first[a] + inner.first[a]),
                     last: [0, 1, 2].map(|a| whole.first[a] + inner.last[a]),
                 };
+                limit(whole, inner.cells(), options)?;
                 (dims, cells) = crop(&|i| cells.get(i).is_some_and(|&v| v != 0), dims, inner, run)?;
             }
         }
@@ -160,8 +165,7 @@ fn scaled(what: &str, v: [f64; 3], unit: f64, most: f64) -> Result<[f64; 3]> {
 }
 
 fn limit(whole: CellBox, more: u64, options: &ImportOptions) -> Result<()> {
-    let cells: u64 = whole.dims().iter().map(|&n| n as u64).product();
-    let bytes = cells.saturating_add(more);
+    let bytes = whole.cells().saturating_add(more);
     if bytes > options.memory_limit {
         return Err(Error::MemoryLimit(format!(
             "the voxels need {bytes} bytes, the limit is {}",
@@ -171,31 +175,24 @@ fn limit(whole: CellBox, more: u64, options: &ImportOptions) -> Result<()> {
     Ok(())
 }
 
-/// How many cells are solid, and their bounding box; `None` without any.
-fn extent(
-    solid: &(dyn Fn(usize) -> bool + Sync),
-    dims: [usize; 3],
-    run: &Run,
-) -> Option<(u64, CellBox)> {
+/// The bounding box of the solid cells; `None` without any.
+fn extent(solid: &(impl Fn(usize) -> bool + Sync), dims: [usize; 3], run: &Run) -> Option<CellBox> {
     let [nx, ny, nz] = dims;
     let planes = run.pool().map(nz, |k| {
-        let mut found: Option<(u64, CellBox)> = None;
-        for j in 0..ny {
+        let rows = (0..ny).filter_map(|j| {
             let row = nx * (j + ny * k);
-            let Some(first) = (0..nx).find(|&i| solid(row + i)) else { continue };
+            let first = (0..nx).find(|&i| solid(row + i))?;
             let last = (first..nx).rev().find(|&i| solid(row + i)).unwrap_or(first);
-            let count = (first..=last).filter(|&i| solid(row + i)).count() as u64;
-            let line = CellBox { first: [first, j, k], last: [last, j, k] };
-            found = Some(found.map_or((count, line), |(n, b)| (n + count, b.join(line))));
-        }
-        found
+            Some(CellBox { first: [first, j, k], last: [last, j, k] })
+        });
+        rows.reduce(CellBox::join)
     });
-    planes.into_iter().flatten().reduce(|(n, b), (m, c)| (n + m, b.join(c)))
+    planes.into_iter().flatten().reduce(CellBox::join)
 }
 
 /// The cells of a box as 0 and 1.
 fn crop(
-    solid: &(dyn Fn(usize) -> bool + Sync),
+    solid: &(impl Fn(usize) -> bool + Sync),
     from: [usize; 3],
     part: CellBox,
     run: &Run,
@@ -216,27 +213,34 @@ fn crop(
 }
 
 /// How many cells are solid, and how many of their faces towards x, y and z
-/// have no solid neighbour.
+/// have no solid neighbour: the pairs of unlike neighbours, void beyond the box.
 fn census(cells: &[u8], dims: [usize; 3], run: &Run) -> (u64, [u64; 3]) {
     let [nx, ny, nz] = dims;
-    let plane = nx * ny;
+    let sum = |a: &[u8]| a.iter().map(|&v| u64::from(v)).sum::<u64>();
+    let unlike = |a: &[u8], b: &[u8]| {
+        // Sums of 255 at most stay in a byte lane.
+        a.chunks(255)
+            .zip(b.chunks(255))
+            .map(|(a, b)| u64::from(a.iter().zip(b).map(|(x, y)| x ^ y).sum::<u8>()))
+            .sum::<u64>()
+    };
     let planes = run.pool().map(nz, |k| {
-        let (mut count, mut faces) = (0u64, [0u64; 3]);
-        let at = |i: usize| cells.get(i).copied().unwrap_or(0);
+        let at = |j: usize, k: usize| {
+            let start = nx * (j + ny * k);
+            cells.get(start..start + nx).unwrap_or_default()
+        };
+        let (mut count, mut faces) = (0, [0; 3]);
         for j in 0..ny {
-            for i in 0..nx {
-                let c = i + nx * j + plane * k;
-                if at(c) == 0 {
-                    continue;
-                }
-                count += 1;
-                faces[0] += u64::from(i == 0 || at(c - 1) == 0);
-                faces[0] += u64::from(i + 1 == nx || at(c + 1) == 0);
-                faces[1] += u64::from(j == 0 || at(c - nx) == 0);
-                faces[1] += u64::from(j + 1 == ny || at(c + nx) == 0);
-                faces[2] += u64::from(k == 0 || at(c - plane) == 0);
-                faces[2] += u64::from(k + 1 == nz || at(c + plane) == 0);
-            }
+            let row = at(j, k);
+            let solid = sum(row);
+            count += solid;
+            faces[0] += u64::from(row.first().copied().unwrap_or(0))
+                + u64::from(row.last().copied().unwrap_or(0))
+                + unlike(row, row.get(1..).unwrap_or_default());
+            faces[1] += if j == 0 { solid } else { unlike(row, at(j - 1, k)) };
+            faces[2] += if k == 0 { solid } else { unlike(row, at(j, k - 1)) };
+            faces[1] += if j + 1 == ny { solid } else { 0 };
+            faces[2] += if k + 1 == nz { solid } else { 0 };
         }
         (count, faces)
     });
