@@ -1,0 +1,214 @@
+//! How deep a point lies below the surface: the radius that a sphere has there.
+//!
+//! The distance transform of cells is not that depth: it measures to the
+//! nearest *empty cell centre*, which lies half a cell beyond a flat face along
+//! the axes but nearly nothing beyond a round one, where many cells compete to be
+//! nearest. Meshes have their exact distance. For voxels, each empty cell that
+//! could be nearest carries its expected distance to the surface, told by how
+//! full its neighbourhood is: smoothed with the weights (1, 2, 1)/4 along each
+//! axis, an empty cell on a flat face is a quarter full, one in a round face nearly half. The
+//! depth is the distance to the nearest empty cells less what they carry. The
+//! figures are in docs/mss.md.
+
+use super::lattice::Lattice;
+use crate::error::{Result, filled, reserve};
+
+/// Cells along each edge of a bucket.
+const BUCKET: usize = 8;
+
+/// Empty cells this much farther than the nearest, in cells, count as well.
+const NEARLY: f64 = 0.02;
+
+/// An empty cell with a solid neighbour.
+#[derive(Debug, Clone, Copy)]
+struct Rim {
+    cell: [u32; 3],
+    /// Expected distance of its centre from the surface.
+    beyond: f32,
+}
+
+/// The empty cells beside solid ones, in buckets.
+pub(super) struct Rims {
+    dims: [usize; 3],
+    step: [f64; 3],
+    starts: Vec<u32>,
+    rims: Vec<Rim>,
+}
+
+impl Rims {
+    /// Finds the empty cells beside the solid ones.
+    pub fn find(lattice: &Lattice, bits: &[u64]) -> Result<Rims> {
+        let dims = lattice.dims.map(|n| n.div_ceil(BUCKET));
+        let bucket = |c: &[u32; 3]| {
+            let b = c.map(|n| n as usize / BUCKET);
+            b[0] + dims[0] * (b[1] + dims[1] * b[2])
+        };
+        let mut starts = filled("the buckets of the rim", dims.iter().product::<usize>() + 1, 0u32)?;
+        let mut cells = Vec::new();
+        rim_cells(lattice, bits, |c| cells.push(c));
+        for c in &cells {
+            starts[bucket(c) + 1] += 1;
+        }
+        for n in 1..starts.len() {
+            starts[n] += starts[n - 1];
+        }
+        cells.sort_by_key(|c| bucket(c));
+        let mut rims = reserve("the rim", cells.len())?;
+        rims.extend(cells.into_iter().map(|cell| Rim { cell, beyond: beyond(lattice, bits, &cell) }));
+        Ok(Rims { dims, step: lattice.step, starts, rims })
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.rims.len() * size_of::<Rim>() + self.starts.len() * size_of::<u32>()
+    }
+
+    /// Distance from `p` to the surface, and to the nearest empty cell centre. `within` must
+    /// not be less than the latter.
+    pub fn depth(&self, p: &[f64; 3], within: f64) -> (f64, f64) {
+        let mut best = within * within;
+        self.around(p, within, |d2, _| {
+            best = best.min(d2);
+            best
+        });
+        let nearest = best.sqrt();
+        let limit = nearest + NEARLY;
+        let (mut sum, mut count) = (0.0, 0.0);
+        self.around(p, limit, |d2, beyond| {
+            if d2 <= limit * limit {
+                sum += f64::from(beyond);
+                count += 1.0;
+            }
+            limit * limit
+        });
+        if count > 0.0 { ((nearest - sum / count).max(0.0), nearest) } else { (nearest, nearest) }
+    }
+
+    /// Visits the rim in the buckets nearer than `within`; the visitor returns the
+    /// squared distance beyond which nothing matters any more.
+    fn around(&self, p: &[f64; 3], within: f64, mut visit: impl FnMut(f64, f32) -> f64) {
+        let mut limit = within * within;
+        let edge = self.step.map(|s| s * BUCKET as f64);
+        let reach = |a: usize, at: f64| {
+            ((at / edge[a]).max(0.0) as usize).min(self.dims[a].saturating_sub(1))
+        };
+        let first: [usize; 3] = std::array::from_fn(|a| reach(a, p[a] - within));
+        let last: [usize; 3] = std::array::from_fn(|a| reach(a, p[a] + within));
+        // Centres of the cells of bucket n lie in [n·edge, n·edge + 7 steps].
+        let gap = |a: usize, n: usize| {
+            let lo = n as f64 * edge[a];
+            (lo - p[a]).max(p[a] - (lo + edge[a] - self.step[a])).max(0.0).powi(2)
+        };
+        for c in first[2]..=last[2] {
+            let dz = gap(2, c);
+            for b in first[1]..=last[1] {
+                let dy = dz + gap(1, b);
+                if dy > limit {
+                    continue;
+                }
+                for a in first[0]..=last[0] {
+                    if dy + gap(0, a) > limit {
+                        continue;
+                    }
+                    let n = a + self.dims[0] * (b + self.dims[1] * c);
+                    let (Some(&from), Some(&to)) = (self.starts.get(n), self.starts.get(n + 1))
+                    else {
+                        continue;
+                    };
+                    for r in self.rims.get(from as usize..to as usize).unwrap_or(&[]) {
+                        let mut d2 = 0.0;
+                        for x in 0..3 {
+                            let d = f64::from(r.cell[x]) * self.step[x] - p[x];
+                            d2 += d * d;
+                        }
+                        limit = visit(d2, r.beyond);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Calls `found` for each empty cell that shares a face with a solid one, in order.
+fn rim_cells(lattice: &Lattice, bits: &[u64], mut found: impl FnMut([u32; 3])) {
+    let [_, ny, nz] = lattice.dims;
+    let words = lattice.words;
+    let row = |j: usize, k: usize| {
+        if j >= ny || k >= nz {
+            return None;
+        }
+        let start = words * (j + ny * k);
+        bits.get(start..start + words)
+    };
+    let word = |r: Option<&[u64]>, n: usize| r.and_then(|r| r.get(n)).copied().unwrap_or(0);
+    for k in 0..nz {
+        for j in 0..ny {
+            let here = row(j, k);
+            let beside = [
+                row(j.wrapping_sub(1), k),
+                row(j + 1, k),
+                row(j, k.wrapping_sub(1)),
+                row(j, k + 1),
+            ];
+            for n in 0..words {
+                let w = word(here, n);
+                let left = w << 1 | if n > 0 { word(here, n - 1) >> 63 } else { 0 };
+                let right = w >> 1 | word(here, n + 1) << 63;
+                let sides = beside.iter().fold(left | right, |s, r| s | word(*r, n));
+                let mut rim = sides & !w;
+                while rim != 0 {
+                    let i = n * 64 + rim.trailing_zeros() as usize;
+                    rim &= rim - 1;
+                    if i < lattice.dims[0] {
+                        found([i as u32, j as u32, k as u32]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Expected distance of an empty cell's centre from the surface, when it is the nearest to some
+/// centre: half a cell on a flat face, where the smoothed occupancy g is ¼ and falls by ½ a cell;
+/// less where g is nearer to ½. The cube is fitted to balls, boxes and turned boxes: cells are
+/// nearest because the surface comes close to them, so a partly flat face counts for little.
+fn beyond(lattice: &Lattice, bits: &[u64], cell: &[u32; 3]) -> f32 {
+    let mut moments = [0i32; 4];
+    let at = |o: [i32; 3]| {
+        let q: [Option<usize>; 3] =
+            std::array::from_fn(|a| (i64::from(cell[a]) + i64::from(o[a])).try_into().ok());
+        matches!(q, [Some(i), Some(j), Some(k)] if lattice.get(bits, i, j, k))
+    };
+    // Smoothed occupancy, and its central differences: (1, 2, 1) against (−1, −2, 0, 2, 1) / 2.
+    for z in -2i32..=2 {
+        for y in -2i32..=2 {
+            for x in -2i32..=2 {
+                let smooth = [x, y, z].map(|n| (2 - n.abs()).max(0));
+                let slope = [x, y, z].map(|n| n.signum() * if n.abs() == 1 { 2 } else { 1 });
+                let weights = [
+                    smooth[0] * smooth[1] * smooth[2],
+                    slope[0] * smooth[1] * smooth[2],
+                    smooth[0] * slope[1] * smooth[2],
+                    smooth[0] * smooth[1] * slope[2],
+                ];
+                if weights != [0; 4] && at([x, y, z]) {
+                    for (m, w) in moments.iter_mut().zip(weights) {
+                        *m += w;
+                    }
+                }
+            }
+        }
+    }
+    let full = f64::from(moments[0]) / 64.0;
+    // Halved once more: a central difference spans two cells.
+    let slope: [f64; 3] =
+        std::array::from_fn(|a| f64::from(moments[a + 1]) / 128.0 / lattice.step[a]);
+    let steep = (slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2]).sqrt();
+    if steep <= 0.0 {
+        return 0.5 * lattice.step[0].min(lattice.step[1]).min(lattice.step[2]) as f32;
+    }
+    // Width of a cell along the slope.
+    let width: f64 = (0..3).map(|a| (slope[a] / steep).powi(2) * lattice.step[a]).sum();
+    let flat = ((0.5 - full) / steep / (0.5 * width)).clamp(0.0, 1.0);
+    (0.5 * width * flat.powi(3)) as f32
+}

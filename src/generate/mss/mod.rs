@@ -1,0 +1,159 @@
+//! The MSS algorithm of paper 002 (Buchele, Pöschel and Müller 2026): spheres at
+//! the local maxima of the distance transform E, then at those of 2E − Ẽ.
+//!
+//! What differs from the paper, and why, is in docs/mss.md. In short: the
+//! radius is the true depth, not E, which has a bias; of the maxima those
+//! are taken first that bring D down most; where maxima run out, the cells
+//! still uncovered lead to further spheres.
+
+mod candidates;
+mod depth;
+mod lattice;
+mod maxima;
+mod select;
+mod subvoxel;
+mod symmetry;
+mod target;
+mod transform;
+
+use super::GenerateOptions;
+use crate::clump::{Clump, Stopped};
+use crate::error::{Error, Result, filled};
+use crate::run::Run;
+use crate::solid::Solid;
+use candidates::Fields;
+use lattice::Ball;
+use select::{Counts, Pool, Rules};
+use target::Target;
+
+/// Spheres of a round, as a part of those before it, and at least.
+const ROUND: (usize, usize) = (2, 4);
+
+/// A round ends when the best place left gains less than this part of its first.
+const WORTH: f64 = 0.3;
+
+/// Makes a clump by MSS.
+pub(super) fn mss(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
+    run.check(0.0, "measuring the distances of cells")?;
+    let target = Target::of(solid, run)?;
+    let cell = target.cell() * solid.frame().scale;
+    let rules = Rules {
+        offset: options.radius_offset,
+        min_radius: options.min_radius / cell,
+        min_distance: options.min_distance,
+        confine: options.confine,
+    };
+    let made = grow(&target, rules, options.spheres, options.mismatch, run)?;
+    let spheres = made.balls.iter().map(|b| target.sphere(b)).collect::<Vec<_>>();
+    let note = note(&made, options, spheres.len());
+    Ok(Clump { spheres, stopped: made.stopped, note, quality: None, counters: run.counters() })
+}
+
+/// What the search came to.
+struct Made {
+    balls: Vec<Ball>,
+    stopped: Stopped,
+    mismatch: f64,
+}
+
+/// Adds spheres until a criterion is met. `limit` 0: any number; `aim` 0: any mismatch.
+fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Result<Made> {
+    let limit = if limit == 0 { usize::MAX } else { limit };
+    let mut covered = filled("the cells of the clump", target.bits.len(), 0u64)?;
+    let mut fields = Fields::new(target)?;
+    run.count(|c| {
+        let bytes = target.bytes() + fields.bytes() + covered.len() * 8;
+        c.peak_bytes = c.peak_bytes.max(c.cells + bytes as u64);
+    });
+    let mut counts = Counts { target: target.cells, ..Counts::default() };
+    let mut pool = Pool::new(rules);
+    let mut balls: Vec<Ball> = Vec::new();
+    let places = fields.of_target(target, run);
+    pool.add(target, places);
+    let mut rested = false;
+    let stopped = 'search: loop {
+        let quota = (balls.len() / ROUND.0).max(ROUND.1);
+        let before = balls.len();
+        let mut first = None;
+        while balls.len() - before < quota {
+            let share = balls.len() as f64 / limit as f64;
+            let done = share.max((1.0 - counts.mismatch()) / (1.0 - aim).max(1e-6)).min(1.0);
+            if run.cancelled(0.1 + 0.9 * done) {
+                break 'search Stopped::Cancelled;
+            }
+            if !balls.is_empty() && run.late() {
+                break 'search Stopped::Deadline;
+            }
+            let Some(choice) = pool.best(target, &covered, &counts, &balls, run) else { break };
+            // New places may be better than what is left of the old ones.
+            if choice.score < WORTH * *first.get_or_insert(choice.score) {
+                pool.put_back(choice);
+                break;
+            }
+            for ball in choice.orbit {
+                let gain = target.lattice.gain(&ball, &target.bits, &covered);
+                let next = counts.with(gain);
+                if next.mismatch() >= counts.mismatch() {
+                    continue;
+                }
+                target.lattice.cover(&ball, &target.bits, &mut covered);
+                counts = next;
+                balls.push(ball);
+                if aim > 0.0 && counts.mismatch() <= aim {
+                    break 'search Stopped::Mismatch;
+                }
+                if balls.len() >= limit {
+                    break 'search Stopped::Spheres;
+                }
+            }
+        }
+        if balls.len() == before && rested {
+            break if pool.too_small { Stopped::Radius } else { Stopped::Exhausted };
+        }
+        if !balls.is_empty() {
+            let places = fields.of_deficit(target, &covered, run);
+            pool.add(target, places);
+        }
+        let places = fields.of_rest(target, &covered, run);
+        pool.add(target, places);
+        rested = true;
+    };
+    if balls.is_empty() {
+        return Err(match stopped {
+            Stopped::Cancelled => Error::Cancelled(
+                "cancelled by the caller before the first sphere".into(),
+            ),
+            Stopped::Radius => Error::NoSpheres(format!(
+                "no sphere that fits has a radius of {} cells or more",
+                rules.min_radius
+            )),
+            _ => Error::NoSpheres("no sphere in the solid brings the mismatch down".into()),
+        });
+    }
+    Ok(Made { balls, stopped, mismatch: counts.mismatch() })
+}
+
+/// Why there are fewer spheres than were asked for.
+fn note(made: &Made, options: &GenerateOptions, n: usize) -> String {
+    let of = match options.spheres {
+        0 => format!("{n} spheres"),
+        asked if n < asked => format!("{n} of {asked} spheres"),
+        _ => return String::new(),
+    };
+    let d = made.mismatch;
+    match made.stopped {
+        Stopped::Spheres => String::new(),
+        Stopped::Mismatch => format!("{of}: the mismatch on the grid is {d:.4}, as low as asked"),
+        Stopped::Radius => format!(
+            "{of}: every further sphere that helps is smaller than {}",
+            options.min_radius
+        ),
+        Stopped::Deadline => format!("{of}: the deadline passed"),
+        Stopped::Cancelled => format!("{of}: cancelled by the caller"),
+        Stopped::Exhausted => format!(
+            "{of}: no further sphere at a distance of {} cells or more brings the mismatch on \
+             the grid below {d:.4}; a finer grid takes more",
+            options.min_distance
+        ),
+    }
+}
