@@ -43,7 +43,8 @@ impl Rims {
             let b = c.map(|n| n as usize / BUCKET);
             b[0] + dims[0] * (b[1] + dims[1] * b[2])
         };
-        let mut starts = filled("the buckets of the rim", dims.iter().product::<usize>() + 1, 0u32)?;
+        let mut starts =
+            filled("the buckets of the rim", dims.iter().product::<usize>() + 1, 0u32)?;
         let mut cells = Vec::new();
         rim_cells(lattice, bits, |c| cells.push(c));
         for c in &cells {
@@ -54,7 +55,9 @@ impl Rims {
         }
         cells.sort_by_key(|c| bucket(c));
         let mut rims = reserve("the rim", cells.len())?;
-        rims.extend(cells.into_iter().map(|cell| Rim { cell, beyond: beyond(lattice, bits, &cell) }));
+        rims.extend(
+            cells.into_iter().map(|cell| Rim { cell, beyond: beyond(lattice, bits, &cell) }),
+        );
         Ok(Rims { dims, step: lattice.step, starts, rims })
     }
 
@@ -117,8 +120,8 @@ impl Rims {
                     };
                     for r in self.rims.get(from as usize..to as usize).unwrap_or(&[]) {
                         let mut d2 = 0.0;
-                        for x in 0..3 {
-                            let d = f64::from(r.cell[x]) * self.step[x] - p[x];
+                        for (x, q) in p.iter().enumerate() {
+                            let d = f64::from(r.cell[x]) * self.step[x] - q;
                             d2 += d * d;
                         }
                         limit = visit(d2, r.beyond);

@@ -53,8 +53,7 @@ impl Lattice {
         let rows = mask.chunks_exact(self.dims[0].max(1));
         for (row, out) in rows.zip(bits.chunks_exact_mut(self.words.max(1))) {
             for (cells, word) in row.chunks(64).zip(out) {
-                *word =
-                    cells.iter().enumerate().fold(0, |w, (b, &c)| w | (u64::from(c != 0) << b));
+                *word = cells.iter().enumerate().fold(0, |w, (b, &c)| w | (u64::from(c != 0) << b));
             }
         }
         Ok(bits)
@@ -117,7 +116,8 @@ impl Lattice {
     pub fn fresh(&self, span: &Span, target: &[u64], covered: &[u64]) -> (u64, u64) {
         let base = span.row * self.words;
         let (w0, w1) = (span.first / 64, span.last / 64);
-        let (Some(t), Some(c)) = (target.get(base + w0..=base + w1), covered.get(base + w0..=base + w1))
+        let (Some(t), Some(c)) =
+            (target.get(base + w0..=base + w1), covered.get(base + w0..=base + w1))
         else {
             return (0, 0);
         };

@@ -65,7 +65,8 @@ pub(super) fn thin(
     if cells.len() <= PLATEAU {
         return cells;
     }
-    let mut order: Vec<(f32, usize)> = cells.iter().enumerate().map(|(n, c)| (value(c), n)).collect();
+    let mut order: Vec<(f32, usize)> =
+        cells.iter().enumerate().map(|(n, c)| (value(c), n)).collect();
     order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut keep = vec![false; cells.len()];
     for group in order.chunk_by(|a, b| a.0 == b.0) {
@@ -131,8 +132,7 @@ mod tests {
 
     #[test]
     fn a_thinned_plateau_keeps_its_centre_ends_and_mirror_images() {
-        let cells: Vec<[u32; 3]> =
-            (0..60 * 41).map(|n| [3 + n % 60, 7 + n / 60, 5]).collect();
+        let cells: Vec<[u32; 3]> = (0..60 * 41).map(|n| [3 + n % 60, 7 + n / 60, 5]).collect();
         let kept = thin(cells.clone(), |_| 24.0, f64::from);
         assert!(kept.len() < cells.len() / 5);
         for c in &kept {

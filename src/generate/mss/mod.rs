@@ -120,9 +120,9 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
     };
     if balls.is_empty() {
         return Err(match stopped {
-            Stopped::Cancelled => Error::Cancelled(
-                "cancelled by the caller before the first sphere".into(),
-            ),
+            Stopped::Cancelled => {
+                Error::Cancelled("cancelled by the caller before the first sphere".into())
+            }
             Stopped::Radius => Error::NoSpheres(format!(
                 "no sphere that fits has a radius of {} cells or more",
                 rules.min_radius
@@ -144,10 +144,9 @@ fn note(made: &Made, options: &GenerateOptions, n: usize) -> String {
     match made.stopped {
         Stopped::Spheres => String::new(),
         Stopped::Mismatch => format!("{of}: the mismatch on the grid is {d:.4}, as low as asked"),
-        Stopped::Radius => format!(
-            "{of}: every further sphere that helps is smaller than {}",
-            options.min_radius
-        ),
+        Stopped::Radius => {
+            format!("{of}: every further sphere that helps is smaller than {}", options.min_radius)
+        }
         Stopped::Deadline => format!("{of}: the deadline passed"),
         Stopped::Cancelled => format!("{of}: cancelled by the caller"),
         Stopped::Exhausted => format!(

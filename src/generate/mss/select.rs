@@ -84,7 +84,10 @@ pub(super) struct Choice {
 /// What came of looking at a candidate.
 enum Look {
     /// New cells in and out of the target, a sphere.
-    Good { orbit: Vec<Ball>, gain: (f64, f64) },
+    Good {
+        orbit: Vec<Ball>,
+        gain: (f64, f64),
+    },
     TooSmall,
     Never,
 }
@@ -129,17 +132,14 @@ impl Pool {
         run: &Run,
     ) -> Option<Choice> {
         let mismatch = counts.mismatch();
-        let score =
-            |gain: (f64, f64)| (1.0 + mismatch) * gain.0 - (1.0 - mismatch) * gain.1;
+        let score = |gain: (f64, f64)| (1.0 + mismatch) * gain.0 - (1.0 - mismatch) * gain.1;
         let mut best: Option<(f64, f64, usize)> = None;
         let mut looked: Vec<Entry> = Vec::new();
         loop {
             let mut batch = Vec::new();
             while batch.len() < TOGETHER {
                 match self.heap.peek() {
-                    Some(top)
-                        if best.is_none_or(|(s, _, _)| top.bound * (1.0 + mismatch) >= s) =>
-                    {
+                    Some(top) if best.is_none_or(|(s, _, _)| top.bound * (1.0 + mismatch) >= s) => {
                         batch.extend(self.heap.pop());
                     }
                     _ => break,
@@ -160,7 +160,8 @@ impl Pool {
                     Look::Good { orbit, gain } => {
                         let index = entry.index;
                         let s = score(gain);
-                        let key = orbit.first().map_or(0.0, |b| target.mirrors.off_centre(&b.center));
+                        let key =
+                            orbit.first().map_or(0.0, |b| target.mirrors.off_centre(&b.center));
                         let better = best.is_none_or(|(t, k, n)| {
                             s.total_cmp(&t).reverse().then(key.total_cmp(&k)).then(index.cmp(&n))
                                 == Ordering::Less
@@ -188,8 +189,7 @@ impl Pool {
         }
         let (value, _, index) = best?;
         let candidate = self.candidates.get(index)?;
-        let mut choice =
-            Choice { orbit: candidate.orbit.clone(), score: value, entry: taken? };
+        let mut choice = Choice { orbit: candidate.orbit.clone(), score: value, entry: taken? };
         if candidate.place.peak {
             let center = refined(target, &candidate.place.center);
             if let Look::Good { orbit, gain } = self.consider(target, covered, chosen, &center)

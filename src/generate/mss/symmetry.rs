@@ -40,11 +40,11 @@ impl Mirrors {
 
     /// Moves the point onto the planes that are nearer than half a cell.
     pub fn snap(&self, p: &mut [f64; 3]) {
-        for a in 0..3 {
+        for (a, x) in p.iter_mut().enumerate() {
             if let Some(d) = self.doubled[a] {
                 let plane = 0.5 * d * self.step[a];
-                if (p[a] - plane).abs() < 0.5 * self.step[a] {
-                    p[a] = plane;
+                if (*x - plane).abs() < 0.5 * self.step[a] {
+                    *x = plane;
                 }
             }
         }

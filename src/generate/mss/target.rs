@@ -143,9 +143,7 @@ impl<'a> Target<'a> {
 impl Truth<'_> {
     fn unit(&self, lattice: &Lattice, p: &[f64; 3]) -> Vec3 {
         let grid = self.solid.grid();
-        Vec3::from_fn(|a, _| {
-            grid.origin[a] + (p[a] / lattice.step[a] + 0.5) * grid.spacing[a]
-        })
+        Vec3::from_fn(|a, _| grid.origin[a] + (p[a] / lattice.step[a] + 0.5) * grid.spacing[a])
     }
 
     fn exact(&self, lattice: &Lattice, p: &[f64; 3]) -> f64 {

@@ -1,0 +1,324 @@
+//! MSS on small shapes: what it must find, and what it must not do.
+
+#![allow(clippy::unwrap_used)]
+
+use morula::clump::Stopped;
+use morula::generate::{GenerateOptions, generate};
+use morula::shape::{Bodies, ImportOptions, Layout};
+use morula::solid::SolidOptions;
+use morula::{Clump, Run, Shape, Solid, Sphere};
+
+type Cell<'a> = &'a dyn Fn([f64; 3]) -> bool;
+
+/// A solid of the cells whose centres satisfy `inside`; cell (i, j, k) has its centre at
+/// `(i, j, k) * spacing`.
+fn cells(dims: [usize; 3], spacing: [f64; 3], inside: Cell) -> (Solid, Vec<u8>) {
+    let mut mask = Vec::new();
+    for k in 0..dims[2] {
+        for j in 0..dims[1] {
+            for i in 0..dims[0] {
+                let p = [i as f64 * spacing[0], j as f64 * spacing[1], k as f64 * spacing[2]];
+                mask.push(u8::from(inside(p)));
+            }
+        }
+    }
+    let layout = Layout { dims, spacing, origin: spacing.map(|s| -0.5 * s) };
+    let options = ImportOptions { bodies: Bodies::All, ..ImportOptions::default() };
+    let run = Run::serial();
+    let shape = Shape::from_mask(&mask, &layout, &options, &run).unwrap();
+    (Solid::new(&shape, &SolidOptions::default(), &run).unwrap(), mask)
+}
+
+fn ask(n: usize) -> GenerateOptions {
+    GenerateOptions { spheres: n, ..GenerateOptions::default() }
+}
+
+fn make(solid: &Solid, options: &GenerateOptions) -> Clump {
+    generate(solid, options, &Run::serial()).unwrap()
+}
+
+fn square(p: [f64; 3], c: [f64; 3]) -> f64 {
+    (0..3).map(|a| (p[a] - c[a]).powi(2)).sum()
+}
+
+/// D on the cells of the array.
+fn mismatch(mask: &[u8], dims: [usize; 3], spacing: [f64; 3], spheres: &[Sphere]) -> f64 {
+    let (mut both, mut clump, mut target) = (0.0, 0.0, 0.0);
+    for (n, m) in mask.iter().enumerate() {
+        let p = [
+            (n % dims[0]) as f64 * spacing[0],
+            (n / dims[0] % dims[1]) as f64 * spacing[1],
+            (n / dims[0] / dims[1]) as f64 * spacing[2],
+        ];
+        let c = spheres.iter().any(|s| s.contains(&p.into()));
+        clump += f64::from(u8::from(c));
+        target += f64::from(*m);
+        both += f64::from(u8::from(c && *m != 0));
+    }
+    1.0 - 2.0 * both / (clump + target)
+}
+
+fn balls(list: &[([f64; 3], f64)]) -> impl Fn([f64; 3]) -> bool {
+    move |p| list.iter().any(|(c, r)| square(p, *c) <= r * r)
+}
+
+#[test]
+fn balls_of_voxels_have_no_bias() {
+    for (n, r) in [5.0, 7.3, 10.0, 15.6, 20.0].into_iter().enumerate() {
+        let c = [r + 3.1 + 0.17 * n as f64, r + 3.4, r + 3.7 - 0.11 * n as f64];
+        let size = (2.0 * r) as usize + 8;
+        let (solid, _) = cells([size; 3], [1.0; 3], &balls(&[(c, r)]));
+        let s = make(&solid, &ask(1)).spheres[0];
+        assert!((s.radius - r).abs() < 0.3, "radius {} of {r}", s.radius);
+        let off = square(s.center.into(), c).sqrt();
+        assert!(off < 0.3, "centre of the ball of radius {r} is {off} off");
+    }
+}
+
+#[test]
+fn boxes_of_voxels_have_no_bias() {
+    for (n, r) in [(20, 10.0), (31, 15.5), (9, 4.5)] {
+        let top = n as f64 + 2.5;
+        let (solid, _) = cells([n + 6, n + 8, n + 12], [1.0; 3], &|p| {
+            p.iter().all(|x| *x > 2.5) && p[0] < top && p[1] < top + 2.0 && p[2] < top + 6.0
+        });
+        let s = make(&solid, &ask(1)).spheres[0];
+        assert!((s.radius - r).abs() < 0.06, "radius {} of {r}", s.radius);
+    }
+}
+
+#[test]
+fn two_overlapping_balls_are_both_found() {
+    // Figure 6 of paper 002: the smaller one shows in 2E − Ẽ only.
+    let two = [([20.0, 18.0, 18.0], 14.0), ([33.0, 18.0, 18.0], 10.0)];
+    let dims = [50, 37, 37];
+    let (solid, mask) = cells(dims, [1.0; 3], &balls(&two));
+    let clump = make(&solid, &ask(2));
+    for (c, r) in two {
+        let found = clump
+            .spheres
+            .iter()
+            .any(|s| square(s.center.into(), c).sqrt() < 1.0 && (s.radius - r).abs() < 0.6);
+        assert!(found, "{c:?} {r}: {:?}", clump.spheres);
+    }
+    assert!(mismatch(&mask, dims, [1.0; 3], &clump.spheres) < 0.02);
+}
+
+#[test]
+fn four_balls_are_recovered() {
+    let four = [
+        ([24.0, 24.0, 22.0], 14.0),
+        ([40.0, 27.0, 22.0], 10.0),
+        ([22.0, 42.0, 24.0], 9.0),
+        ([38.0, 38.0, 26.0], 11.0),
+    ];
+    let dims = [56, 56, 46];
+    let (solid, mask) = cells(dims, [1.0; 3], &balls(&four));
+    let clump = make(&solid, &ask(4));
+    for (c, r) in four {
+        let found = clump
+            .spheres
+            .iter()
+            .any(|s| square(s.center.into(), c).sqrt() < 1.5 && (s.radius - r).abs() < 1.0);
+        assert!(found, "{c:?} {r}: {:?}", clump.spheres);
+    }
+    assert!(mismatch(&mask, dims, [1.0; 3], &clump.spheres) < 0.03);
+}
+
+#[test]
+fn a_cube_does_not_stall() {
+    let dims = [46; 3];
+    let inside = |p: [f64; 3]| p.iter().all(|x| *x > 2.5 && *x < 42.5);
+    let (solid, mask) = cells(dims, [1.0; 3], &inside);
+    let clump = make(&solid, &ask(30));
+    assert_eq!((clump.spheres.len(), clump.stopped), (30, Stopped::Spheres));
+    assert!(clump.note.is_empty());
+    assert!(mismatch(&mask, dims, [1.0; 3], &clump.spheres) < 0.11);
+}
+
+#[test]
+fn the_first_spheres_do_not_depend_on_the_number_and_d_falls() {
+    let dims = [64, 44, 36];
+    let inside = |p: [f64; 3]| {
+        let q = [(p[0] - 31.3) / 28.0, (p[1] - 21.1) / 18.0, (p[2] - 17.6) / 14.0];
+        q.iter().map(|x: &f64| x.abs().powf(3.0)).sum::<f64>() < 1.0 && p[0] + p[1] < 70.0
+    };
+    let (solid, mask) = cells(dims, [1.0; 3], &inside);
+    let many = make(&solid, &ask(25)).spheres;
+    assert_eq!(many.len(), 25);
+    let mut last = 1.0;
+    for n in 1..=25 {
+        let d = mismatch(&mask, dims, [1.0; 3], &many[..n]);
+        assert!(d < last, "D is {d} with {n} spheres and {last} with one less");
+        last = d;
+        if n % 6 == 0 {
+            assert_eq!(make(&solid, &ask(n)).spheres, many[..n]);
+        }
+    }
+}
+
+#[test]
+fn mirror_images_go_together() {
+    let torus = |p: [f64; 3]| {
+        let ring = ((p[0] - 30.5).powi(2) + (p[1] - 30.5).powi(2)).sqrt() - 20.0;
+        ring * ring + (p[2] - 12.0).powi(2) < 49.0
+    };
+    let ellipsoid = |p: [f64; 3]| {
+        ((p[0] - 30.5) / 27.0).powi(2)
+            + ((p[1] - 30.5) / 13.0).powi(2)
+            + ((p[2] - 12.0) / 9.0).powi(2)
+            < 1.0
+    };
+    let slab = |p: [f64; 3]| {
+        p[0] > 3.5 && p[0] < 57.5 && p[1] > 10.5 && p[1] < 50.5 && p[2] > 2.5 && p[2] < 21.5
+    };
+    let shapes: [(&str, Cell); 3] = [("torus", &torus), ("ellipsoid", &ellipsoid), ("box", &slab)];
+    for (name, inside) in shapes {
+        let (solid, _) = cells([62, 62, 25], [1.0; 3], inside);
+        let spheres = make(&solid, &ask(60)).spheres;
+        // The greatest number up to 60 that cuts no orbit.
+        let whole = (20..=spheres.len()).rev().find(|n| {
+            let part = &spheres[..*n];
+            [30.5, 30.5, 12.0].iter().enumerate().all(|(a, plane)| {
+                part.iter().all(|s| {
+                    let mut image = s.center;
+                    image[a] = 2.0 * plane - image[a];
+                    part.iter().any(|t| {
+                        (t.center - image).norm() < 1e-9 && (t.radius - s.radius).abs() < 1e-9
+                    })
+                })
+            })
+        });
+        assert!(whole.is_some_and(|n| n + 8 > spheres.len()), "{name}: {whole:?}");
+    }
+}
+
+#[test]
+fn a_closed_cavity_stays_empty() {
+    let dims = [52; 3];
+    let c = [25.6; 3];
+    let shell = |p: [f64; 3]| square(p, c) <= 22.0 * 22.0 && square(p, c) > 12.0 * 12.0;
+    let (solid, mask) = cells(dims, [1.0; 3], &shell);
+    let clump = make(&solid, &ask(80));
+    assert_eq!(clump.spheres.len(), 80);
+    assert!(clump.spheres.iter().all(|s| !s.contains(&c.into())));
+    assert!(mismatch(&mask, dims, [1.0; 3], &clump.spheres) < 0.2);
+}
+
+#[test]
+fn criteria_apply_alone_and_together() {
+    let dims = [46, 40, 36];
+    let inside = |p: [f64; 3]| {
+        p.iter().all(|x| *x > 2.5 && *x < 32.5) || square(p, [32.0, 20.0, 16.0]) < 150.0
+    };
+    let (solid, mask) = cells(dims, [1.0; 3], &inside);
+
+    let by_mismatch = make(&solid, &GenerateOptions { spheres: 0, mismatch: 0.1, ..ask(0) });
+    assert_eq!(by_mismatch.stopped, Stopped::Mismatch);
+    let n = by_mismatch.spheres.len();
+    assert!(mismatch(&mask, dims, [1.0; 3], &by_mismatch.spheres) <= 0.1);
+    assert!(mismatch(&mask, dims, [1.0; 3], &by_mismatch.spheres[..n - 1]) > 0.1);
+
+    let by_radius = make(&solid, &GenerateOptions { spheres: 0, min_radius: 3.0, ..ask(0) });
+    assert_eq!(by_radius.stopped, Stopped::Radius);
+    assert!(by_radius.spheres.iter().all(|s| s.radius >= 3.0));
+
+    let all = GenerateOptions { mismatch: 0.1, min_radius: 3.0, ..ask(n - 3) };
+    let clump = make(&solid, &all);
+    assert_eq!((clump.stopped, clump.spheres.len()), (Stopped::Spheres, n - 3));
+    let few = GenerateOptions { mismatch: 0.001, min_radius: 6.0, ..ask(500) };
+    let clump = make(&solid, &few);
+    assert_eq!(clump.stopped, Stopped::Radius);
+    assert!(clump.note.contains("of 500 spheres") && clump.note.contains('6'), "{}", clump.note);
+
+    let apart = GenerateOptions { min_distance: 5.0, ..ask(500) };
+    let clump = make(&solid, &apart);
+    assert_eq!(clump.stopped, Stopped::Exhausted);
+    assert!(clump.note.contains("500") && clump.note.contains('5'), "{}", clump.note);
+    for (n, a) in clump.spheres.iter().enumerate() {
+        for b in &clump.spheres[..n] {
+            assert!((a.center - b.center).norm() >= 5.0 - 1e-9);
+        }
+    }
+
+    let none = GenerateOptions { min_radius: 100.0, ..ask(3) };
+    let refusal = generate(&solid, &none, &Run::serial()).unwrap_err();
+    assert!(matches!(refusal, morula::Error::NoSpheres(_)), "{refusal}");
+}
+
+#[test]
+fn a_deadline_leaves_a_sphere_and_a_cancel_what_there_is() {
+    let inside = |p: [f64; 3]| p.iter().all(|x| *x > 2.5 && *x < 32.5);
+    let (solid, _) = cells([36; 3], [1.0; 3], &inside);
+    let clump = generate(&solid, &ask(30), &Run::serial().with_deadline(0.0)).unwrap();
+    assert_eq!(clump.stopped, Stopped::Deadline);
+    assert!(!clump.spheres.is_empty() && clump.spheres.len() < 30);
+    assert!(clump.note.contains("deadline"));
+
+    let mut calls = 0;
+    let run = Run::serial().with_progress(Box::new(move |_| {
+        calls += 1;
+        calls > 5
+    }));
+    let clump = generate(&solid, &ask(200), &run).unwrap();
+    assert_eq!(clump.stopped, Stopped::Cancelled);
+    assert!(!clump.spheres.is_empty() && clump.spheres.len() < 200);
+
+    let run = Run::serial().with_progress(Box::new(|_| true));
+    let refusal = generate(&solid, &ask(30), &run).unwrap_err();
+    assert!(matches!(refusal, morula::Error::Cancelled(_)));
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let inside = |p: [f64; 3]| {
+        square(p, [20.3, 21.1, 19.6]) < 300.0 || square(p, [33.3, 28.1, 24.6]) < 120.0
+    };
+    let (solid, _) = cells([48, 44, 40], [1.0, 1.0, 1.0], &inside);
+    let one = make(&solid, &ask(40)).spheres;
+    for threads in [2, 8] {
+        let run = Run::new(threads).unwrap();
+        assert_eq!(generate(&solid, &ask(40), &run).unwrap().spheres, one);
+    }
+}
+
+#[test]
+fn anisotropic_cells_make_round_spheres() {
+    let (r, c) = (14.0, [16.2, 17.0, 18.4]);
+    let spacing = [1.0, 0.7, 1.6];
+    let dims = [36, 50, 24];
+    let (solid, mask) = cells(dims, spacing, &balls(&[(c, r)]));
+    let clump = make(&solid, &ask(1));
+    let s = clump.spheres[0];
+    assert!((s.radius - r).abs() < 0.4, "{s:?}");
+    assert!(square(s.center.into(), c).sqrt() < 0.5, "{s:?}");
+    assert!(mismatch(&mask, dims, spacing, &clump.spheres) < 0.05);
+}
+
+#[test]
+fn an_offset_adds_to_every_radius() {
+    let inside = |p: [f64; 3]| square(p, [14.0; 3]) < 101.0;
+    let (solid, _) = cells([29; 3], [0.5, 0.5, 0.5], &|p| inside(p.map(|x| 2.0 * x)));
+    let plain = make(&solid, &ask(1)).spheres[0];
+    let wide = make(&solid, &GenerateOptions { radius_offset: 1.5, ..ask(1) }).spheres[0];
+    assert!((wide.radius - plain.radius - 0.75).abs() < 1e-9);
+}
+
+#[test]
+fn a_single_cell_is_one_sphere() {
+    let (solid, _) = cells([3; 3], [1.0; 3], &|p| p == [1.0; 3]);
+    let clump = make(&solid, &ask(5));
+    assert_eq!(clump.spheres.len(), 1);
+    assert_eq!(clump.stopped, Stopped::Exhausted);
+    assert!((clump.spheres[0].radius - 0.5).abs() < 0.01);
+}
+
+#[test]
+fn thousands_of_spheres() {
+    let inside = |p: [f64; 3]| square(p, [24.3, 25.0, 24.6]) < 500.0 && p[0] + p[1] > 30.0;
+    let dims = [50; 3];
+    let (solid, mask) = cells(dims, [1.0; 3], &inside);
+    let clump = make(&solid, &ask(5000));
+    assert!(clump.spheres.len() == 5000 || !clump.note.is_empty());
+    assert!(mismatch(&mask, dims, [1.0; 3], &clump.spheres) < 0.005);
+}
