@@ -2,21 +2,22 @@
 //!
 //! Coverage is the mean length inside of k × k columns through a cell, taken
 //! along x, where the arrays are contiguous. The columns of a cell lie
-//! symmetrically about its centre, so a plane cut is decided exactly; what is
-//! sampled are edges, corners and curvature.
+//! symmetrically about its centre and one runs through it, so a cell that a
+//! plane cuts is in exactly when its centre is; what is sampled are edges,
+//! corners and curvature.
 
 use super::{Columns, Grid};
 use crate::error::{Error, Result, filled};
 use crate::run::Run;
 use crate::shape::Body;
 
-/// Columns per cell along each sampled axis. Even, so that no column runs through cell centres,
-/// where the faces of symmetric bodies lie.
-const COLUMNS: usize = 4;
+/// Columns per cell along each sampled axis; odd, so that one runs through the centre. On a ball
+/// of 12 cells 3 decide as 12³ points do but for cells within 0.03 of a half.
+const COLUMNS: usize = 3;
 /// For meshes that need winding numbers, at many times the cost of a column.
-const COLUMNS_OPEN: usize = 2;
-/// The lattice is widened by this about the box's middle: faces at round fractions of a cell
-/// then meet no column, and mirrored faces are decided alike.
+const COLUMNS_OPEN: usize = 1;
+/// The lattice is widened by this about the box's middle: faces at round fractions of a cell,
+/// such as cell centres, then meet no column, and mirrored faces are decided alike.
 const WIDER: f64 = 1.0 + 1.0 / (1u64 << 33) as f64;
 /// Coverage above ½ by less than this is a tie, and out.
 const TIE: f64 = 1.0 / (1u64 << 20) as f64;
