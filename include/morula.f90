@@ -29,6 +29,9 @@ module morula
 
   ! ---- constants of morula.h ----
 
+  integer(c_int32_t), parameter, public :: MORULA_VERSION_MAJOR = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_VERSION_MINOR = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_VERSION_PATCH = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STATUS_OK = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STATUS_NULL_POINTER = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STATUS_INVALID_ARGUMENT = 2_c_int32_t
@@ -245,56 +248,23 @@ module morula
 
   ! ---- functions of morula.h ----
 
-  public :: morula_version
-  public :: morula_version_string
-  public :: morula_status_name
-  public :: morula_last_error_message
-  public :: morula_sizeof
-  public :: morula_set_log
-  public :: morula_import_options_init
-  public :: morula_shape_from_mesh
-  public :: morula_shape_free
-  public :: morula_shape_report
-  public :: morula_shape_note_count
-  public :: morula_shape_copy_note
-  public :: morula_shape_moments
-  public :: morula_file_options_init
-  public :: morula_shape_from_file
-  public :: morula_shape_from_bytes
-  public :: morula_shape_from_mask
-  public :: morula_shape_from_grey_u8
-  public :: morula_shape_from_grey_u16
-  public :: morula_shape_from_grey_f32
-  public :: morula_shape_from_label
-  public :: morula_labels_count
-  public :: morula_labels_copy
-  public :: morula_primitive_name
-  public :: morula_primitive_parameter_count
-  public :: morula_primitive_copy_parameter
-  public :: morula_shape_from_primitive
-  public :: morula_solid_options_init
-  public :: morula_solid_from_shape
-  public :: morula_solid_free
-  public :: morula_solid_grid
-  public :: morula_solid_distance
-  public :: morula_solid_note_count
-  public :: morula_solid_copy_note
-  public :: morula_solid_moments
-  public :: morula_clump_options_init
-  public :: morula_clump_from_shape
-  public :: morula_clump_from_solid
-  public :: morula_clump_free
-  public :: morula_clump_sphere_count
-  public :: morula_clump_copy_spheres
-  public :: morula_clump_stopped
-  public :: morula_stopped_name
-  public :: morula_clump_copy_note
-  public :: morula_clump_moments
-  public :: morula_clump_overlap
-  public :: morula_clump_surface
-  public :: morula_clump_copy_exposed_areas
-  public :: morula_clump_copy_plane_contacts
-  public :: morula_clump_counters
+  public :: morula_version, morula_version_string, morula_status_name, morula_last_error_message
+  public :: morula_sizeof, morula_set_log, morula_import_options_init, morula_shape_from_mesh
+  public :: morula_shape_free, morula_shape_report, morula_shape_note_count
+  public :: morula_shape_copy_note, morula_shape_moments, morula_file_options_init
+  public :: morula_shape_from_file, morula_shape_from_bytes, morula_shape_from_mask
+  public :: morula_shape_from_grey_u8, morula_shape_from_grey_u16, morula_shape_from_grey_f32
+  public :: morula_shape_from_label, morula_labels_count, morula_labels_copy
+  public :: morula_primitive_name, morula_primitive_parameter_count
+  public :: morula_primitive_copy_parameter, morula_shape_from_primitive
+  public :: morula_solid_options_init, morula_solid_from_shape, morula_solid_free
+  public :: morula_solid_grid, morula_solid_distance, morula_solid_note_count
+  public :: morula_solid_copy_note, morula_solid_moments, morula_clump_options_init
+  public :: morula_clump_from_shape, morula_clump_from_solid, morula_clump_free
+  public :: morula_clump_sphere_count, morula_clump_copy_spheres, morula_clump_stopped
+  public :: morula_stopped_name, morula_clump_copy_note, morula_clump_moments
+  public :: morula_clump_overlap, morula_clump_surface, morula_clump_copy_exposed_areas
+  public :: morula_clump_copy_plane_contacts, morula_clump_counters
 
   interface
     function morula_version() bind(c) result(r)
@@ -339,7 +309,7 @@ module morula
       integer(c_int32_t), intent(in) :: triangles(*)
       integer(c_size_t), value :: triangle_count
       type(morula_import_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: shape
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_mesh
     subroutine morula_shape_free(shape) bind(c)
@@ -380,22 +350,22 @@ module morula
       integer(c_size_t), value :: size
       integer(c_int32_t) :: r
     end function morula_file_options_init
-    function morula_shape_from_file(path, import, file, shape) bind(c) result(r)
+    function morula_shape_from_file(path, import_options, file_options, shape) bind(c) result(r)
       import
       character(kind=c_char), intent(in) :: path(*)
-      type(morula_import_options), intent(in), optional :: import
-      type(morula_file_options), intent(in), optional :: file
-      type(c_ptr), intent(out) :: shape
+      type(morula_import_options), intent(in), optional :: import_options
+      type(morula_file_options), intent(in), optional :: file_options
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_file
-    function morula_shape_from_bytes(bytes, count, name, import, file, shape) bind(c) result(r)
+    function morula_shape_from_bytes(bytes, count, name, import_options, file_options, shape) bind(c) result(r)
       import
       integer(c_int8_t), intent(in) :: bytes(*)
       integer(c_size_t), value :: count
       character(kind=c_char), intent(in) :: name(*)
-      type(morula_import_options), intent(in), optional :: import
-      type(morula_file_options), intent(in), optional :: file
-      type(c_ptr), intent(out) :: shape
+      type(morula_import_options), intent(in), optional :: import_options
+      type(morula_file_options), intent(in), optional :: file_options
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_bytes
     function morula_shape_from_mask(mask, dims, spacing, origin, options, shape) bind(c) result(r)
@@ -405,7 +375,7 @@ module morula
       real(c_double), intent(in), optional :: spacing(*)
       real(c_double), intent(in), optional :: origin(*)
       type(morula_import_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: shape
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_mask
     function morula_shape_from_grey_u8(values, dims, spacing, origin, threshold, options, &
@@ -415,9 +385,9 @@ module morula
       integer(c_size_t), intent(in) :: dims(*)
       real(c_double), intent(in), optional :: spacing(*)
       real(c_double), intent(in), optional :: origin(*)
-      real(c_double), intent(in), optional :: threshold(*)
+      real(c_double), intent(in), optional :: threshold
       type(morula_import_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: shape
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_grey_u8
     function morula_shape_from_grey_u16(values, dims, spacing, origin, threshold, options, &
@@ -427,9 +397,9 @@ module morula
       integer(c_size_t), intent(in) :: dims(*)
       real(c_double), intent(in), optional :: spacing(*)
       real(c_double), intent(in), optional :: origin(*)
-      real(c_double), intent(in), optional :: threshold(*)
+      real(c_double), intent(in), optional :: threshold
       type(morula_import_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: shape
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_grey_u16
     function morula_shape_from_grey_f32(values, dims, spacing, origin, threshold, options, &
@@ -439,9 +409,9 @@ module morula
       integer(c_size_t), intent(in) :: dims(*)
       real(c_double), intent(in), optional :: spacing(*)
       real(c_double), intent(in), optional :: origin(*)
-      real(c_double), intent(in), optional :: threshold(*)
+      real(c_double), intent(in), optional :: threshold
       type(morula_import_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: shape
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_grey_f32
     function morula_shape_from_label(labels, dims, spacing, origin, label, options, &
@@ -453,7 +423,7 @@ module morula
       real(c_double), intent(in), optional :: origin(*)
       integer(c_int32_t), value :: label
       type(morula_import_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: shape
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_label
     function morula_labels_count(labels, dims, count) bind(c) result(r)
@@ -507,7 +477,7 @@ module morula
       integer(c_int32_t), value :: segments
       integer(c_int64_t), value :: seed
       type(morula_import_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: shape
+      type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_primitive
     function morula_solid_options_init(options, size) bind(c) result(r)
@@ -520,7 +490,7 @@ module morula
       import
       type(c_ptr), value :: shape
       type(morula_solid_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: solid
+      type(c_ptr), intent(inout) :: solid
       integer(c_int32_t) :: r
     end function morula_solid_from_shape
     subroutine morula_solid_free(solid) bind(c)
@@ -576,14 +546,14 @@ module morula
       type(c_ptr), value :: shape
       type(morula_solid_options), intent(in), optional :: solid_options
       type(morula_clump_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: clump
+      type(c_ptr), intent(inout) :: clump
       integer(c_int32_t) :: r
     end function morula_clump_from_shape
     function morula_clump_from_solid(solid, options, clump) bind(c) result(r)
       import
       type(c_ptr), value :: solid
       type(morula_clump_options), intent(in), optional :: options
-      type(c_ptr), intent(out) :: clump
+      type(c_ptr), intent(inout) :: clump
       integer(c_int32_t) :: r
     end function morula_clump_from_solid
     subroutine morula_clump_free(clump) bind(c)
@@ -662,3 +632,683 @@ module morula
       integer(c_int32_t) :: r
     end function morula_clump_counters
   end interface
+
+  interface
+    pure function c_strlen(text) bind(c, name='strlen') result(length)
+      import
+      type(c_ptr), value :: text
+      integer(c_size_t) :: length
+    end function c_strlen
+  end interface
+
+  ! ---- types that hold a handle ----
+
+  !> A checked shape: something with an inside.
+  type, public :: morula_shape_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    !> From vertices(3, n) and triangles(3, m), whose vertices are counted from 1.
+    procedure :: create_from_mesh => shape_from_mesh
+    !> From a file.
+    procedure :: create_from_file => shape_from_file
+    !> From the bytes of a file.
+    procedure :: create_from_bytes => shape_from_bytes
+    !> From voxels mask(nx, ny, nz): those that are not 0 are solid.
+    procedure :: create_from_mask => shape_from_mask
+    procedure, private :: shape_from_grey_u8, shape_from_grey_u16, shape_from_grey_f32
+    !> From grey values(nx, ny, nz): c_int8_t and c_int16_t are read as unsigned, or c_float.
+    !> Solid above `threshold`; without it, above Otsu's.
+    generic :: create_from_grey => shape_from_grey_u8, shape_from_grey_u16, shape_from_grey_f32
+    !> From one label of labels(nx, ny, nz).
+    procedure :: create_from_label => shape_from_label
+    !> A built-in analytic particle, with keys(:) and values(:) of its parameters.
+    procedure :: create_from_primitive => shape_from_primitive
+    procedure :: report => shape_report
+    procedure :: note_count => shape_note_count
+    !> Note `index`, counted from 1.
+    procedure :: note => shape_note
+    procedure :: moments => shape_moments
+    procedure :: destroy => shape_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => shape_handle
+    procedure, private :: shape_assign
+    generic :: assignment(=) => shape_assign
+    final :: shape_final
+  end type morula_shape_t
+
+  !> A shape with a grid.
+  type, public :: morula_solid_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure :: create => solid_create
+    procedure :: grid => solid_grid
+    !> Exact signed distances of points(3, n), negative inside.
+    procedure :: distance => solid_distance
+    procedure :: note_count => solid_note_count
+    !> Note `index`, counted from 1.
+    procedure :: note => solid_note
+    procedure :: moments => solid_moments
+    procedure :: destroy => solid_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => solid_handle
+    procedure, private :: solid_assign
+    generic :: assignment(=) => solid_assign
+    final :: solid_final
+  end type morula_solid_t
+
+  !> A clump.
+  type, public :: morula_clump_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure, private :: clump_from_shape, clump_from_solid
+    !> From a shape (its solid is made inside) or from a solid. With plane_tolerances the
+    !> options' own are replaced.
+    generic :: create => clump_from_shape, clump_from_solid
+    procedure :: sphere_count => clump_sphere_count
+    !> The spheres as xyzr(4, n): x, y, z, radius.
+    procedure :: copy_spheres => clump_copy_spheres
+    procedure :: stopped => clump_stopped
+    procedure :: note => clump_note
+    procedure :: moments => clump_moments
+    procedure :: overlap => clump_overlap
+    procedure :: surface => clump_surface
+    procedure :: copy_exposed_areas => clump_copy_exposed_areas
+    procedure :: copy_plane_contacts => clump_copy_plane_contacts
+    procedure :: counters => clump_counters
+    procedure :: destroy => clump_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => clump_handle
+    procedure, private :: clump_assign
+    generic :: assignment(=) => clump_assign
+    final :: clump_final
+  end type morula_clump_t
+
+  !> Options with the defaults.
+  interface morula_init
+    procedure :: init_import, init_file, init_solid, init_clump
+  end interface morula_init
+
+  public :: morula_init, morula_text, morula_message, morula_name_of_status
+  public :: morula_name_of_primitive, morula_name_of_stop, morula_labels
+
+contains
+
+  ! ---- text, status, options ----
+
+  !> A C string as Fortran text.
+  function morula_text(pointer) result(text)
+    type(c_ptr), intent(in) :: pointer
+    character(:), allocatable :: text
+    character(kind=c_char), pointer :: chars(:)
+    integer :: i, length
+    if (.not. c_associated(pointer)) then
+      text = ''
+      return
+    end if
+    length = int(c_strlen(pointer))
+    call c_f_pointer(pointer, chars, [length])
+    allocate(character(length) :: text)
+    do i = 1, length
+      text(i:i) = chars(i)
+    end do
+  end function morula_text
+
+  !> The sentence of this thread's last failure.
+  function morula_message() result(text)
+    character(:), allocatable :: text
+    text = morula_text(morula_last_error_message())
+  end function morula_message
+
+  !> The name of a status.
+  function morula_name_of_status(status) result(text)
+    integer(c_int32_t), intent(in) :: status
+    character(:), allocatable :: text
+    text = morula_text(morula_status_name(status))
+  end function morula_name_of_status
+
+  !> The word for a MORULA_STOPPED_* number.
+  function morula_name_of_stop(stopped) result(text)
+    integer(c_int32_t), intent(in) :: stopped
+    character(:), allocatable :: text
+    text = morula_text(morula_stopped_name(stopped))
+  end function morula_name_of_stop
+
+  !> The name of built-in particle `index`, counted from 1; empty when there are no more.
+  function morula_name_of_primitive(index) result(text)
+    integer, intent(in) :: index
+    character(:), allocatable :: text
+    text = morula_text(morula_primitive_name(int(index - 1, c_size_t)))
+  end function morula_name_of_primitive
+
+  subroutine finish(code, status)
+    integer(c_int32_t), intent(in) :: code
+    integer(c_int32_t), intent(out), optional :: status
+    if (present(status)) then
+      status = code
+    else if (code /= MORULA_STATUS_OK) then
+      write (error_unit, '(4a)') 'morula: ', morula_name_of_status(code), ': ', morula_message()
+      error stop 'a call of the morula library failed'
+    end if
+  end subroutine finish
+
+  subroutine refuse_assignment()
+    error stop 'a morula handle cannot be assigned: it would be freed twice'
+  end subroutine refuse_assignment
+
+  pure function terminated(text) result(with_nul)
+    character(*), intent(in) :: text
+    character(kind=c_char) :: with_nul(len_trim(text) + 1)
+    integer :: i
+    do i = 1, len_trim(text)
+      with_nul(i) = text(i:i)
+    end do
+    with_nul(len_trim(text) + 1) = c_null_char
+  end function terminated
+
+  subroutine init_import(options, status)
+    type(morula_import_options), intent(out) :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_import_options_init(options, c_sizeof(options)), status)
+  end subroutine init_import
+
+  subroutine init_file(options, status)
+    type(morula_file_options), intent(out) :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_file_options_init(options, c_sizeof(options)), status)
+  end subroutine init_file
+
+  subroutine init_solid(options, status)
+    type(morula_solid_options), intent(out) :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_solid_options_init(options, c_sizeof(options)), status)
+  end subroutine init_solid
+
+  subroutine init_clump(options, status)
+    type(morula_clump_options), intent(out) :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_clump_options_init(options, c_sizeof(options)), status)
+  end subroutine init_clump
+
+  !> The labels of labels(nx, ny, nz), ascending, without 0: ids(n), their cells(n), boxes(6, n)
+  !> (first and last cell, counted from 1), and whether they touch the border.
+  subroutine morula_labels(labels, ids, cells, boxes, touches_border, status)
+    integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
+    integer(c_int32_t), allocatable, intent(out) :: ids(:)
+    integer(c_int64_t), allocatable, intent(out), optional :: cells(:), boxes(:, :)
+    logical, allocatable, intent(out), optional :: touches_border(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    integer(c_int32_t) :: code
+    integer(c_int32_t), allocatable :: touches(:)
+    integer(c_int64_t), allocatable :: numbers(:), corners(:, :)
+    n = 0
+    code = morula_labels_count(labels, shape(labels, c_size_t), n)
+    allocate(ids(n), numbers(n), corners(6, n), touches(n))
+    if (code == MORULA_STATUS_OK) then
+      code = morula_labels_copy(labels, shape(labels, c_size_t), n, ids, numbers, corners, touches)
+    end if
+    if (code == MORULA_STATUS_OK) then
+      if (present(cells)) cells = numbers
+      if (present(boxes)) boxes = corners + 1
+      if (present(touches_border)) touches_border = touches /= 0
+    end if
+    call finish(code, status)
+  end subroutine morula_labels
+
+  ! ---- morula_shape_t ----
+
+  subroutine shape_from_mesh(self, vertices, triangles, options, status)
+    class(morula_shape_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: vertices(:, :)
+    integer(c_int32_t), intent(in), contiguous :: triangles(:, :)
+    type(morula_import_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    type(morula_import_options) :: from_one
+    call self%destroy()
+    if (size(vertices, 1) /= 3 .or. size(triangles, 1) /= 3) then
+      error stop 'morula: vertices and triangles are arrays (3, n)'
+    end if
+    call morula_init(from_one)
+    if (present(options)) from_one = options
+    from_one%index_base = 1
+    call finish(morula_shape_from_mesh(vertices, size(vertices, 2, c_size_t), triangles, &
+      size(triangles, 2, c_size_t), from_one, self%handle), status)
+  end subroutine shape_from_mesh
+
+  subroutine shape_from_file(self, path, options, file_options, status)
+    class(morula_shape_t), intent(inout) :: self
+    character(*), intent(in) :: path
+    type(morula_import_options), intent(in), optional :: options
+    type(morula_file_options), intent(in), optional :: file_options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_shape_from_file(terminated(path), options, file_options, self%handle), status)
+  end subroutine shape_from_file
+
+  subroutine shape_from_bytes(self, bytes, name, options, file_options, status)
+    class(morula_shape_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    character(*), intent(in) :: name
+    type(morula_import_options), intent(in), optional :: options
+    type(morula_file_options), intent(in), optional :: file_options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_shape_from_bytes(bytes, size(bytes, kind=c_size_t), terminated(name), &
+      options, file_options, self%handle), status)
+  end subroutine shape_from_bytes
+
+  subroutine shape_from_mask(self, mask, spacing, origin, options, status)
+    class(morula_shape_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: mask(:, :, :)
+    real(c_double), intent(in), optional :: spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_shape_from_mask(mask, shape(mask, c_size_t), spacing, origin, options, &
+      self%handle), status)
+  end subroutine shape_from_mask
+
+  subroutine shape_from_grey_u8(self, values, threshold, spacing, origin, options, status)
+    class(morula_shape_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: values(:, :, :)
+    real(c_double), intent(in), optional :: threshold, spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_shape_from_grey_u8(values, shape(values, c_size_t), spacing, origin, &
+      threshold, options, self%handle), status)
+  end subroutine shape_from_grey_u8
+
+  subroutine shape_from_grey_u16(self, values, threshold, spacing, origin, options, status)
+    class(morula_shape_t), intent(inout) :: self
+    integer(c_int16_t), intent(in), contiguous :: values(:, :, :)
+    real(c_double), intent(in), optional :: threshold, spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_shape_from_grey_u16(values, shape(values, c_size_t), spacing, origin, &
+      threshold, options, self%handle), status)
+  end subroutine shape_from_grey_u16
+
+  subroutine shape_from_grey_f32(self, values, threshold, spacing, origin, options, status)
+    class(morula_shape_t), intent(inout) :: self
+    real(c_float), intent(in), contiguous :: values(:, :, :)
+    real(c_double), intent(in), optional :: threshold, spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_shape_from_grey_f32(values, shape(values, c_size_t), spacing, origin, &
+      threshold, options, self%handle), status)
+  end subroutine shape_from_grey_f32
+
+  subroutine shape_from_label(self, labels, label, spacing, origin, options, status)
+    class(morula_shape_t), intent(inout) :: self
+    integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
+    integer(c_int32_t), intent(in) :: label
+    real(c_double), intent(in), optional :: spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_shape_from_label(labels, shape(labels, c_size_t), spacing, origin, label, &
+      options, self%handle), status)
+  end subroutine shape_from_label
+
+  subroutine shape_from_primitive(self, name, keys, values, segments, seed, options, status)
+    class(morula_shape_t), intent(inout) :: self
+    character(*), intent(in) :: name
+    character(*), intent(in), optional :: keys(:)
+    real(c_double), intent(in), optional :: values(:)
+    integer, intent(in), optional :: segments
+    integer(c_int64_t), intent(in), optional :: seed
+    type(morula_import_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: texts(:, :)
+    type(c_ptr), allocatable :: pointers(:)
+    real(c_double), allocatable :: numbers(:)
+    integer(c_int32_t) :: edges
+    integer(c_int64_t) :: which
+    integer :: i, n
+    call self%destroy()
+    n = 0
+    if (present(keys) .and. present(values)) n = min(size(keys), size(values))
+    if (present(keys)) then
+      allocate(texts(len(keys) + 1, max(n, 1)))
+    else
+      allocate(texts(1, 1))
+    end if
+    texts = c_null_char
+    allocate(pointers(n), numbers(n))
+    do i = 1, n
+      texts(:len_trim(keys(i)) + 1, i) = terminated(keys(i))
+      pointers(i) = c_loc(texts(1, i))
+      numbers(i) = values(i)
+    end do
+    edges = 0
+    if (present(segments)) edges = int(segments, c_int32_t)
+    which = 0
+    if (present(seed)) which = seed
+    call finish(morula_shape_from_primitive(terminated(name), pointers, numbers, &
+      int(n, c_size_t), edges, which, options, self%handle), status)
+  end subroutine shape_from_primitive
+
+  subroutine shape_report(self, report, status)
+    class(morula_shape_t), intent(in) :: self
+    type(morula_report), intent(out) :: report
+    integer(c_int32_t), intent(out), optional :: status
+    report%struct_size = c_sizeof(report)
+    call finish(morula_shape_report(self%handle, report), status)
+  end subroutine shape_report
+
+  subroutine shape_note_count(self, count, status)
+    class(morula_shape_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_shape_note_count(self%handle, n), status)
+    count = int(n)
+  end subroutine shape_note_count
+
+  subroutine shape_note(self, index, text, status)
+    class(morula_shape_t), intent(in) :: self
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out) :: text
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: buffer(:)
+    integer(c_size_t) :: at, length
+    integer(c_int32_t) :: code
+    at = int(index - 1, c_size_t)
+    length = 0
+    code = morula_shape_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, length)
+    allocate(buffer(length + 1))
+    buffer = c_null_char
+    if (code == MORULA_STATUS_OK) then
+      code = morula_shape_copy_note(self%handle, at, length + 1, c_loc(buffer))
+    end if
+    text = morula_text(c_loc(buffer))
+    call finish(code, status)
+  end subroutine shape_note
+
+  subroutine shape_moments(self, density, moments, status)
+    class(morula_shape_t), intent(in) :: self
+    real(c_double), intent(in) :: density
+    type(morula_moments), intent(out) :: moments
+    integer(c_int32_t), intent(out), optional :: status
+    moments%struct_size = c_sizeof(moments)
+    call finish(morula_shape_moments(self%handle, density, moments), status)
+  end subroutine shape_moments
+
+  subroutine shape_destroy(self)
+    class(morula_shape_t), intent(inout) :: self
+    call morula_shape_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine shape_destroy
+
+  function shape_handle(self) result(handle)
+    class(morula_shape_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function shape_handle
+
+  subroutine shape_assign(self, other)
+    class(morula_shape_t), intent(inout) :: self
+    class(morula_shape_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine shape_assign
+
+  subroutine shape_final(self)
+    type(morula_shape_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine shape_final
+
+  ! ---- morula_solid_t ----
+
+  subroutine solid_create(self, shape, options, status)
+    class(morula_solid_t), intent(inout) :: self
+    class(morula_shape_t), intent(in) :: shape
+    type(morula_solid_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_solid_from_shape(shape%handle, options, self%handle), status)
+  end subroutine solid_create
+
+  subroutine solid_grid(self, dims, spacing, origin, status)
+    class(morula_solid_t), intent(in) :: self
+    integer(c_size_t), intent(out), optional :: dims(3)
+    real(c_double), intent(out), optional :: spacing(3), origin(3)
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_solid_grid(self%handle, dims, spacing, origin), status)
+  end subroutine solid_grid
+
+  subroutine solid_distance(self, points, distances, status)
+    class(morula_solid_t), intent(in) :: self
+    real(c_double), intent(in), contiguous :: points(:, :)
+    real(c_double), intent(inout), contiguous :: distances(:)
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(points, 1) /= 3 .or. size(distances) < size(points, 2)) then
+      error stop 'morula: points is an array (3, n) and distances has n elements'
+    end if
+    call finish(morula_solid_distance(self%handle, size(points, 2, c_size_t), points, distances), &
+      status)
+  end subroutine solid_distance
+
+  subroutine solid_note_count(self, count, status)
+    class(morula_solid_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_solid_note_count(self%handle, n), status)
+    count = int(n)
+  end subroutine solid_note_count
+
+  subroutine solid_note(self, index, text, status)
+    class(morula_solid_t), intent(in) :: self
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out) :: text
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: buffer(:)
+    integer(c_size_t) :: at, length
+    integer(c_int32_t) :: code
+    at = int(index - 1, c_size_t)
+    length = 0
+    code = morula_solid_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, length)
+    allocate(buffer(length + 1))
+    buffer = c_null_char
+    if (code == MORULA_STATUS_OK) then
+      code = morula_solid_copy_note(self%handle, at, length + 1, c_loc(buffer))
+    end if
+    text = morula_text(c_loc(buffer))
+    call finish(code, status)
+  end subroutine solid_note
+
+  subroutine solid_moments(self, density, moments, status)
+    class(morula_solid_t), intent(in) :: self
+    real(c_double), intent(in) :: density
+    type(morula_moments), intent(out) :: moments
+    integer(c_int32_t), intent(out), optional :: status
+    moments%struct_size = c_sizeof(moments)
+    call finish(morula_solid_moments(self%handle, density, moments), status)
+  end subroutine solid_moments
+
+  subroutine solid_destroy(self)
+    class(morula_solid_t), intent(inout) :: self
+    call morula_solid_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine solid_destroy
+
+  function solid_handle(self) result(handle)
+    class(morula_solid_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function solid_handle
+
+  subroutine solid_assign(self, other)
+    class(morula_solid_t), intent(inout) :: self
+    class(morula_solid_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine solid_assign
+
+  subroutine solid_final(self)
+    type(morula_solid_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine solid_final
+
+  ! ---- morula_clump_t ----
+
+  subroutine clump_from_shape(self, shape, clump_options, solid_options, plane_tolerances, status)
+    class(morula_clump_t), intent(inout) :: self
+    class(morula_shape_t), intent(in) :: shape
+    type(morula_clump_options), intent(in), optional :: clump_options
+    type(morula_solid_options), intent(in), optional :: solid_options
+    real(c_double), intent(in), contiguous, target, optional :: plane_tolerances(:)
+    integer(c_int32_t), intent(out), optional :: status
+    type(morula_clump_options) :: options
+    call self%destroy()
+    call with_planes(clump_options, plane_tolerances, options)
+    call finish(morula_clump_from_shape(shape%handle, solid_options, options, self%handle), status)
+  end subroutine clump_from_shape
+
+  subroutine clump_from_solid(self, solid, clump_options, plane_tolerances, status)
+    class(morula_clump_t), intent(inout) :: self
+    class(morula_solid_t), intent(in) :: solid
+    type(morula_clump_options), intent(in), optional :: clump_options
+    real(c_double), intent(in), contiguous, target, optional :: plane_tolerances(:)
+    integer(c_int32_t), intent(out), optional :: status
+    type(morula_clump_options) :: options
+    call self%destroy()
+    call with_planes(clump_options, plane_tolerances, options)
+    call finish(morula_clump_from_solid(solid%handle, options, self%handle), status)
+  end subroutine clump_from_solid
+
+  subroutine with_planes(given, planes, options)
+    type(morula_clump_options), intent(in), optional :: given
+    real(c_double), intent(in), contiguous, target, optional :: planes(:)
+    type(morula_clump_options), intent(out) :: options
+    call morula_init(options)
+    if (present(given)) options = given
+    if (present(planes)) then
+      if (size(planes) > 0) options%plane_tolerances = c_loc(planes)
+      options%plane_tolerance_count = size(planes, kind=c_size_t)
+    end if
+  end subroutine with_planes
+
+  subroutine clump_sphere_count(self, count, status)
+    class(morula_clump_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_clump_sphere_count(self%handle, n), status)
+    count = int(n)
+  end subroutine clump_sphere_count
+
+  subroutine clump_copy_spheres(self, xyzr, status)
+    class(morula_clump_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: xyzr(:, :)
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call finish(morula_clump_copy_spheres(self%handle, size(xyzr, 2, c_size_t), xyzr), status)
+  end subroutine clump_copy_spheres
+
+  subroutine clump_stopped(self, stopped, status)
+    class(morula_clump_t), intent(in) :: self
+    integer(c_int32_t), intent(inout) :: stopped
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_clump_stopped(self%handle, stopped), status)
+  end subroutine clump_stopped
+
+  subroutine clump_note(self, text, status)
+    class(morula_clump_t), intent(in) :: self
+    character(:), allocatable, intent(out) :: text
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: buffer(:)
+    integer(c_size_t) :: length
+    integer(c_int32_t) :: code
+    length = 0
+    code = morula_clump_copy_note(self%handle, 0_c_size_t, c_null_ptr, length)
+    allocate(buffer(length + 1))
+    buffer = c_null_char
+    if (code == MORULA_STATUS_OK) then
+      code = morula_clump_copy_note(self%handle, length + 1, c_loc(buffer))
+    end if
+    text = morula_text(c_loc(buffer))
+    call finish(code, status)
+  end subroutine clump_note
+
+  subroutine clump_moments(self, density, moments, status)
+    class(morula_clump_t), intent(in) :: self
+    real(c_double), intent(in) :: density
+    type(morula_moments), intent(out) :: moments
+    integer(c_int32_t), intent(out), optional :: status
+    moments%struct_size = c_sizeof(moments)
+    call finish(morula_clump_moments(self%handle, density, moments), status)
+  end subroutine clump_moments
+
+  subroutine clump_overlap(self, overlap, status)
+    class(morula_clump_t), intent(in) :: self
+    type(morula_overlap), intent(out) :: overlap
+    integer(c_int32_t), intent(out), optional :: status
+    overlap%struct_size = c_sizeof(overlap)
+    call finish(morula_clump_overlap(self%handle, overlap), status)
+  end subroutine clump_overlap
+
+  subroutine clump_surface(self, surface, status)
+    class(morula_clump_t), intent(in) :: self
+    type(morula_surface), intent(out) :: surface
+    integer(c_int32_t), intent(out), optional :: status
+    surface%struct_size = c_sizeof(surface)
+    call finish(morula_clump_surface(self%handle, surface), status)
+  end subroutine clump_surface
+
+  subroutine clump_copy_exposed_areas(self, areas, status)
+    class(morula_clump_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: areas(:)
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_clump_copy_exposed_areas(self%handle, size(areas, kind=c_size_t), areas), &
+      status)
+  end subroutine clump_copy_exposed_areas
+
+  subroutine clump_copy_plane_contacts(self, counts, status)
+    class(morula_clump_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: counts(:)
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_clump_copy_plane_contacts(self%handle, size(counts, kind=c_size_t), &
+      counts), status)
+  end subroutine clump_copy_plane_contacts
+
+  subroutine clump_counters(self, counters, status)
+    class(morula_clump_t), intent(in) :: self
+    type(morula_counters), intent(out) :: counters
+    integer(c_int32_t), intent(out), optional :: status
+    counters%struct_size = c_sizeof(counters)
+    call finish(morula_clump_counters(self%handle, counters), status)
+  end subroutine clump_counters
+
+  subroutine clump_destroy(self)
+    class(morula_clump_t), intent(inout) :: self
+    call morula_clump_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine clump_destroy
+
+  function clump_handle(self) result(handle)
+    class(morula_clump_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function clump_handle
+
+  subroutine clump_assign(self, other)
+    class(morula_clump_t), intent(inout) :: self
+    class(morula_clump_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine clump_assign
+
+  subroutine clump_final(self)
+    type(morula_clump_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine clump_final
+
+end module morula

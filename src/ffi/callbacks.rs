@@ -1,5 +1,6 @@
 //! What the library calls: progress, and the log sink.
 
+use super::fenv;
 use crate::error::{Error, Result};
 use crate::run::Run;
 use std::ffi::{CString, c_char, c_void};
@@ -57,7 +58,7 @@ pub(super) fn log(level: i32, text: impl FnOnce() -> String) {
     let sink = *SINK.read().unwrap_or_else(|e| e.into_inner());
     if let Some(call) = sink.call {
         let text = CString::new(text().replace('\0', "?")).unwrap_or_default();
-        unsafe { call(level, text.as_ptr(), sink.user) };
+        fenv::host(|| unsafe { call(level, text.as_ptr(), sink.user) });
     }
 }
 
@@ -78,9 +79,9 @@ pub(super) fn run<'a>(
         .map_err(|_| Error::InvalidArgument(format!("threads is {threads}, less than 0")))?;
     let run = Run::new(threads)?;
     Ok(match progress {
-        Some(call) => {
-            run.with_progress(Box::new(move |fraction| unsafe { call(fraction, user) } != 0))
-        }
+        Some(call) => run.with_progress(Box::new(move |fraction| {
+            fenv::host(|| unsafe { call(fraction, user) }) != 0
+        })),
         None => run,
     })
 }

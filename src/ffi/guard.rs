@@ -30,7 +30,7 @@ pub(super) fn guard(work: impl FnOnce() -> Result<()>) -> i32 {
     quiet_hook();
     set_message(None);
     let before = QUIET.replace(true);
-    let outcome = catch_unwind(AssertUnwindSafe(work));
+    let outcome = catch_unwind(AssertUnwindSafe(|| super::fenv::default(work)));
     QUIET.set(before);
     let error = match outcome {
         Ok(Ok(())) => return super::MORULA_STATUS_OK,
@@ -48,7 +48,7 @@ pub(super) fn guard(work: impl FnOnce() -> Result<()>) -> i32 {
 pub(super) fn guard_free(work: impl FnOnce()) {
     quiet_hook();
     let before = QUIET.replace(true);
-    let outcome = catch_unwind(AssertUnwindSafe(work));
+    let outcome = catch_unwind(AssertUnwindSafe(|| super::fenv::default(work)));
     QUIET.set(before);
     if let Err(payload) = outcome {
         panic_text(payload);

@@ -15,6 +15,7 @@
 mod callbacks;
 mod clump;
 mod clump_read;
+mod fenv;
 mod file;
 mod guard;
 mod options;

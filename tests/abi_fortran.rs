@@ -1,0 +1,281 @@
+//! `include/morula.f90` against `include/morula.h`: the same functions with the
+//! same arguments, the same structs with the same fields, the same constants.
+
+use std::collections::BTreeMap;
+
+fn read(name: &str) -> String {
+    std::fs::read_to_string(format!("{}/include/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+}
+
+/// What a declaration is, in both languages' common words.
+type Kind = String;
+
+#[derive(Debug, Default, PartialEq)]
+struct Interface {
+    /// Name → kinds of the arguments, then of the result.
+    functions: BTreeMap<String, Vec<Kind>>,
+    /// Name → fields as (name, kind).
+    structs: BTreeMap<String, Vec<(String, Kind)>>,
+    constants: BTreeMap<String, i64>,
+}
+
+// ---- C ----
+
+fn c_interface(header: &str) -> Interface {
+    let mut found = Interface::default();
+    let code: String = header
+        .lines()
+        .filter(|l| !l.trim_start().starts_with("///"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    for line in code.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        if let ["#define", name, value] = words[..]
+            && let Ok(value) = value.parse()
+        {
+            found.constants.insert(name.to_owned(), value);
+        }
+    }
+    for part in code.split("typedef struct ").skip(1) {
+        let Some((name, rest)) = part.split_once(" {") else { continue };
+        if name.contains(';') {
+            continue;
+        }
+        let body = rest.split('}').next().unwrap();
+        let fields = body.split(';').map(str::trim).filter(|f| !f.is_empty());
+        let fields = fields.map(|f| {
+            let (kind, name) = c_declaration(f);
+            (name, kind)
+        });
+        found.structs.insert(name.to_owned(), fields.collect());
+    }
+    let flat = code.split_whitespace().collect::<Vec<_>>().join(" ");
+    for statement in flat.split(';') {
+        let Some((head, arguments)) = statement.rsplit_once('(') else { continue };
+        let Some(arguments) = arguments.strip_suffix(')') else { continue };
+        if head.contains("typedef") {
+            continue;
+        }
+        // The last two words: the result's type and the name.
+        let Some(at) = head.find("morula_") else { continue };
+        let (result, name) = head.split_at(at);
+        let result = ["void", "const char *", "int32_t", "uint32_t", "size_t"]
+            .into_iter()
+            .find(|r| {
+                result.trim().ends_with(r.trim())
+                    && (*r != "int32_t" || !result.contains("uint32_t"))
+            })
+            .unwrap();
+        let mut kinds: Vec<Kind> =
+            arguments.split(", ").filter(|a| *a != "void").map(|a| c_declaration(a).0).collect();
+        kinds.push(c_kind(result));
+        found.functions.insert(name.to_owned(), kinds);
+    }
+    found
+}
+
+/// Kind and name of `const double *vertices`, `double centre[3]` …
+fn c_declaration(text: &str) -> (Kind, String) {
+    let text = text.replace("struct ", "");
+    let (text, dim) = match text.split_once('[') {
+        Some((t, d)) => (t.to_owned(), format!("({})", d.trim_end_matches(']'))),
+        None => (text, String::new()),
+    };
+    let at = text.rfind([' ', '*']).unwrap() + 1;
+    (c_kind(&text[..at]) + &dim, text[at..].to_owned())
+}
+
+fn c_kind(c: &str) -> Kind {
+    let c: String = c.replace("const", "").split_whitespace().collect();
+    let kind = match c.trim_end_matches('*') {
+        "int32_t" | "uint32_t" => "int32",
+        "uint64_t" => "int64",
+        "size_t" => "size",
+        "double" => "double",
+        "float" => "float",
+        "uint8_t" => "int8",
+        "uint16_t" => "int16",
+        "char" => "char",
+        "void" if !c.contains('*') => "nothing",
+        "morula_shape" | "morula_solid" | "morula_clump" | "void" => "handle",
+        "morula_progress" | "morula_log" => "callback",
+        other => other,
+    };
+    let stars = c.chars().filter(|c| *c == '*').count();
+    match (kind, stars) {
+        // A pointer to something opaque is a value of its own in Fortran.
+        ("handle", n) => "pointer".to_owned() + &"*".repeat(n - 1),
+        ("char", 2) => "pointer*".to_owned(),
+        (kind, n) => kind.to_owned() + &"*".repeat(n),
+    }
+}
+
+// ---- Fortran ----
+
+fn fortran_interface(source: &str) -> Interface {
+    let mut found = Interface::default();
+    let source = source.replace("&\n", " ");
+    let lines: Vec<&str> = source.lines().map(|l| l.split('!').next().unwrap().trim()).collect();
+    let mut i = 0;
+    while i < lines.len() {
+        let line = lines[i];
+        i += 1;
+        if let Some((_, rest)) = line.split_once("parameter, public :: ") {
+            let (name, value) = rest.split_once(" = ").unwrap();
+            let value = value.trim_end_matches("_c_int32_t").parse().unwrap();
+            found.constants.insert(name.to_owned(), value);
+        } else if let Some(name) = line.strip_prefix("type, bind(c), public :: ") {
+            let mut fields = Vec::new();
+            while !lines[i].starts_with("end type") {
+                let (kind, declared) = fortran_declaration(lines[i], false);
+                fields.push((declared, kind));
+                i += 1;
+            }
+            found.structs.insert(name.to_owned(), fields);
+        } else if line.contains(" bind(c)")
+            && (line.starts_with("function morula_") || line.starts_with("subroutine morula_"))
+        {
+            let (name, rest) = line.split_once(' ').unwrap().1.split_once('(').unwrap();
+            let names: Vec<String> = rest
+                .split_once(')')
+                .unwrap()
+                .0
+                .split(',')
+                .map(|s| s.trim().to_owned())
+                .filter(|s| !s.is_empty())
+                .collect();
+            let mut declared = BTreeMap::new();
+            while !lines[i].starts_with("end ") {
+                if lines[i] != "import" {
+                    let (kind, of) = fortran_declaration(lines[i], true);
+                    declared.insert(of, kind);
+                }
+                i += 1;
+            }
+            let mut kinds: Vec<Kind> = names
+                .iter()
+                .map(|n| declared.remove(n).unwrap_or_else(|| panic!("{name}: {n} is undeclared")))
+                .collect();
+            kinds.push(declared.remove("r").map_or("nothing".to_owned(), |k| {
+                let by_value = k.trim_end_matches('*').to_owned();
+                // A C string is handed back as a pointer.
+                if by_value == "pointer" { "char*".to_owned() } else { by_value }
+            }));
+            assert!(declared.is_empty(), "{name}: {declared:?} are no arguments");
+            found.functions.insert(name.to_owned(), kinds);
+        }
+    }
+    found
+}
+
+fn fortran_declaration(line: &str, argument: bool) -> (Kind, String) {
+    let (attributes, name) =
+        line.split_once(" :: ").unwrap_or_else(|| panic!("no declaration: {line}"));
+    let name = name.split(" = ").next().unwrap();
+    let (name, dim) =
+        name.split_once('(').map_or((name, ""), |(n, d)| (n, d.trim_end_matches(')')));
+    let base = attributes.split(", ").next().unwrap();
+    let base = base.split('(').nth(1).unwrap().trim_end_matches(')');
+    let kind = match base {
+        "c_int32_t" => "int32",
+        "c_int64_t" => "int64",
+        "c_int16_t" => "int16",
+        "c_int8_t" => "int8",
+        "c_size_t" => "size",
+        "c_double" => "double",
+        "c_float" => "float",
+        "c_ptr" => "pointer",
+        "c_funptr" => "callback",
+        "kind=c_char" => "char",
+        other => other,
+    };
+    let by_value = !argument || attributes.contains(", value");
+    let mut kind = kind.to_owned() + if by_value { "" } else { "*" };
+    if !argument && !dim.is_empty() {
+        kind = format!("{kind}({dim})");
+    }
+    (kind, name.to_owned())
+}
+
+/// `text` in C may be a `c_ptr` in Fortran: buffers that may be left out.
+fn same(c: &str, fortran: &str) -> bool {
+    c == fortran || (fortran == "pointer" && matches!(c, "char*" | "double*"))
+}
+
+#[test]
+fn functions_have_the_same_names_and_arguments() {
+    let c = c_interface(&read("morula.h")).functions;
+    let fortran = fortran_interface(&read("morula.f90")).functions;
+    assert!(c.len() > 45, "only {} functions were found in the header", c.len());
+    let names = |m: &BTreeMap<String, Vec<Kind>>| m.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(&c), names(&fortran));
+    for (name, ours) in &c {
+        let theirs = &fortran[name];
+        assert_eq!(ours.len(), theirs.len(), "{name}: {ours:?} in C, {theirs:?} in Fortran");
+        for (i, (a, b)) in ours.iter().zip(theirs).enumerate() {
+            assert!(same(a, b), "{name}: argument {i} is {a} in C and {b} in Fortran");
+        }
+    }
+}
+
+#[test]
+fn structs_have_the_same_fields() {
+    let c = c_interface(&read("morula.h")).structs;
+    let fortran = fortran_interface(&read("morula.f90")).structs;
+    assert_eq!(c.len(), 9);
+    assert_eq!(c.keys().collect::<Vec<_>>(), fortran.keys().collect::<Vec<_>>());
+    for (name, ours) in &c {
+        let theirs = &fortran[name];
+        let fields = |f: &[(String, Kind)]| f.iter().map(|f| f.0.clone()).collect::<Vec<_>>();
+        assert_eq!(fields(ours), fields(theirs), "{name}");
+        for ((field, a), (_, b)) in ours.iter().zip(theirs) {
+            assert!(same(a, b), "{name}: {field} is {a} in C and {b} in Fortran");
+        }
+    }
+}
+
+#[test]
+fn constants_have_the_same_values() {
+    let c = c_interface(&read("morula.h")).constants;
+    let fortran = fortran_interface(&read("morula.f90")).constants;
+    assert!(c.len() > 60);
+    assert_eq!(c, fortran);
+}
+
+#[test]
+fn the_fortran_example_calls_every_function() {
+    // Through the types of the second layer, each of which calls its C function once.
+    let module = read("morula.f90");
+    let example = std::fs::read_to_string(format!(
+        "{}/c_examples/fortran/fortran_api.f90",
+        env!("CARGO_MANIFEST_DIR")
+    ))
+    .unwrap();
+    let body = module.split("\ncontains\n").last().unwrap();
+    for name in c_interface(&read("morula.h")).functions.keys() {
+        let called = format!("{name}(");
+        if example.contains(&called) {
+            continue;
+        }
+        // The procedure of the module that calls it, and what the type calls that procedure.
+        let procedure = body
+            .split("\n  subroutine ")
+            .flat_map(|s| s.split("\n  function "))
+            .find(|s| s.contains(&called))
+            .and_then(|s| s.split('(').next())
+            .unwrap_or_else(|| panic!("nothing in morula.f90 calls {name}"));
+        let aliases = module.lines().filter_map(|l| {
+            let (alias, target) = l.trim().split_once(" => ")?;
+            let is = target.split(", ").any(|t| t == procedure);
+            is.then(|| alias.rsplit(' ').next().unwrap().to_owned())
+        });
+        let used = aliases
+            .chain(
+                [procedure.to_owned(), "morula_init".to_owned()]
+                    .into_iter()
+                    .filter(|p| p == procedure || procedure.starts_with("init_")),
+            )
+            .any(|n| example.contains(&format!("%{n}(")) || example.contains(&format!(" {n}(")));
+        assert!(used, "fortran_api.f90 never reaches {name} by way of {procedure}");
+    }
+}
