@@ -31,7 +31,8 @@ pub enum Contact {
     None,
     /// They lie on each other with opposed normals: a wall between two parts.
     Wall,
-    /// An edge of one runs through a face of the other.
+    /// An edge of one runs through a face of the other, or they lie on each other with the
+    /// same normals: their insides overlap.
     Cross,
 }
 
@@ -42,10 +43,8 @@ pub fn meet(a: &Face, b: &Face) -> Contact {
         Contact::None
     } else if pierces(a, b) || pierces(b, a) {
         Contact::Cross
-    } else if shares_wall(a, b) {
-        Contact::Wall
     } else {
-        Contact::None
+        lies_on(a, b)
     }
 }
 
@@ -105,18 +104,20 @@ fn pierces(a: &Face, b: &Face) -> bool {
     })
 }
 
-/// Whether two faces in one plane overlap, seen from opposite sides.
-fn shares_wall(a: &Face, b: &Face) -> bool {
+/// How two faces in one plane meet when they overlap.
+fn lies_on(a: &Face, b: &Face) -> Contact {
     let normal = |f: &Face| {
         let [p, q, r] = f.corners;
         let n = (q - p).cross(&(r - p));
         let l = n.norm();
         (l > 0.0).then(|| n / l)
     };
-    let (Some(n), Some(m)) = (normal(a), normal(b)) else { return false };
-    if n.dot(&m) > -1.0 + 1e-9 || b.corners.iter().any(|v| (v - a.corners[0]).dot(&n).abs() > TOUCH)
+    let (Some(n), Some(m)) = (normal(a), normal(b)) else { return Contact::None };
+    let parallel = n.dot(&m);
+    if parallel.abs() < 1.0 - 1e-9
+        || b.corners.iter().any(|v| (v - a.corners[0]).dot(&n).abs() > TOUCH)
     {
-        return false;
+        return Contact::None;
     }
     // No edge of either separates them in the plane.
     let separates = |f: &Face, normal: &Vec3, g: &Face| {
@@ -126,7 +127,11 @@ fn shares_wall(a: &Face, b: &Face) -> bool {
             g.corners.iter().all(|w| (w - u).dot(&inward) <= TOUCH * inward.norm())
         })
     };
-    !separates(a, &n, b) && !separates(b, &m, a)
+    match (separates(a, &n, b) || separates(b, &m, a), parallel > 0.0) {
+        (true, _) => Contact::None,
+        (_, true) => Contact::Cross,
+        (_, false) => Contact::Wall,
+    }
 }
 
 #[cfg(test)]
@@ -155,6 +160,8 @@ mod tests {
         let beside = face([[1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]);
         let flipped = face([[1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
         assert_eq!(meet(&floor, &below), Contact::Wall);
+        let [p, q, r] = below.corners;
+        assert_eq!(meet(&floor, &Face::new([p, r, q])), Contact::Cross);
         assert_eq!(meet(&floor, &beside), Contact::None);
         assert_eq!(meet(&floor, &flipped), Contact::None);
         assert_eq!(contact(&[above, floor], &[hinge, through]), Contact::Cross);

@@ -43,7 +43,7 @@ impl Field {
             (c.x.floor() as i64, c.y.floor() as i64, c.z.floor() as i64)
         };
         let mut corners: Vec<[Vec3; 3]> = faces.map(|f| f.map(|v| points[v as usize])).collect();
-        corners.sort_by_key(cell);
+        corners.sort_by_cached_key(cell);
         let mut clusters = Vec::new();
         let mut at = 0;
         for group in corners.chunk_by(|a, b| cell(a) == cell(b)) {
@@ -181,8 +181,8 @@ pub fn extents(
         let o = *origin[p as usize].get_or_insert(points[f[0] as usize]);
         let [a, b, c] = f.map(|v| points[v as usize] - o);
         let sum = &mut sums[p as usize];
-        sum.volume += a.dot(&b.cross(&c)) / 6.0;
-        sum.area += (b - a).cross(&(c - a)).norm() / 2.0;
+        sum.volume += a.dot(&b.cross(&c));
+        sum.area += (b - a).cross(&(c - a)).norm();
     }
     // Directed edges that no other face of the part runs back along.
     let mut rims: Vec<(u32, u32, u32)> = Vec::new();
@@ -202,9 +202,6 @@ pub fn extents(
             rims.extend(std::iter::repeat_n(edge, d.unsigned_abs() as usize));
         }
     }
-    if rims.is_empty() {
-        return Ok(sums);
-    }
     let mut union = Union::new(points.len())?;
     rims.iter().for_each(|r| union.join(r.1, r.2));
     let mut middle: BTreeMap<(u32, u32), (Vec3, f64)> = BTreeMap::new();
@@ -218,10 +215,37 @@ pub fn extents(
         sum.open = true;
         if let (Some(m), Some(o)) = (middle.get(&(r.0, union.root(r.1))), origin[r.0 as usize]) {
             let (a, b) = (points[r.1 as usize] - o, points[r.2 as usize] - o);
-            sum.volume += (m.0 / m.1 - o).dot(&b.cross(&a)) / 6.0;
+            sum.volume += (m.0 / m.1 - o).dot(&b.cross(&a));
         }
     }
+    for s in &mut sums {
+        s.volume /= 6.0;
+        s.area /= 2.0;
+    }
     Ok(sums)
+}
+
+/// The signed volume of patches that close each other's openings but for cracks: about
+/// their middle, so that cracks count little.
+pub fn volume_of_patches<'a>(
+    faces: impl Iterator<Item = &'a [u32; 3]> + Clone,
+    points: &[Vec3],
+) -> f64 {
+    let corners = |f: &[u32; 3]| f.map(|v| points[v as usize]);
+    let (mut middle, mut area) = (Vec3::zeros(), 0.0);
+    for [a, b, c] in faces.clone().map(corners) {
+        let w = (b - a).cross(&(c - a)).norm();
+        middle += (a + b + c) / 3.0 * w;
+        area += w;
+    }
+    if area > 0.0 {
+        middle /= area;
+    }
+    let six = faces.map(|f| {
+        let [a, b, c] = corners(f).map(|v| v - middle);
+        a.dot(&b.cross(&c))
+    });
+    six.sum::<f64>() / 6.0
 }
 
 #[cfg(test)]

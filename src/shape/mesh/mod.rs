@@ -123,16 +123,21 @@ fn import(
     report.boundary_edges = edges.boundary;
     report.nonmanifold_edges = edges.nonmanifold;
     let orient::Agreement { mut turn, one_sided } = orient::agree(&kept, &unit, &edges)?;
-    apply(&mut kept, &turn);
-    let edges = Edges::of(&kept)?;
+    let edges = if turn.contains(&true) {
+        apply(&mut kept, &turn);
+        Edges::of(&kept)?
+    } else {
+        edges
+    };
     let topology::Patches { of, count } = topology::patches(&kept, &edges)?;
     report.components = count as u64;
     let extents = inside::extents(&kept, &unit, &of, count, &edges)?;
-    drop(edges);
     let mut parts = parts::parts(&kept, &unit, &of, &extents, run)?;
     let bodies = parts::bodies(&mut parts, &kept, &unit, run)?;
     refuse_without_inside(&parts, &kept, &unit, one_sided)?;
+    let mut same = true;
     for part in parts.iter().filter(|p| p.turn) {
+        same = false;
         for &f in &part.faces {
             kept[f as usize].swap(1, 2);
             turn[f as usize] ^= true;
@@ -144,7 +149,8 @@ fn import(
     let mut it = stays.iter();
     turn.retain(|_| it.next().is_some_and(|&s| s));
     note_turns(&turn, one_sided, &mut report);
-    finish(&points, kept, report)
+    same &= stays.iter().all(|&s| s);
+    finish(&points, kept, same.then_some(edges), report)
 }
 
 fn apply(faces: &mut [[u32; 3]], turn: &[bool]) {
@@ -246,11 +252,11 @@ fn choose(
             largest = i;
         }
     }
-    let volume = |i: usize| bodies.volumes[i] * frame.scale.powi(3);
+    let volume_of = |i: usize| bodies.volumes[i] * frame.scale.powi(3);
     if count > 1 {
         match choice {
             Bodies::Refuse => {
-                let mut by_size: Vec<f64> = (0..count).map(volume).collect();
+                let mut by_size: Vec<f64> = (0..count).map(volume_of).collect();
                 by_size.sort_by(|a, b| b.total_cmp(a));
                 return Err(Error::SeveralBodies(format!(
                     "the mesh is {count} separate bodies (the largest have volumes {:.6e} and \
@@ -262,7 +268,7 @@ fn choose(
                 report.bodies_dropped = count as u64 - 1;
                 report.notes.push(format!(
                     "of {count} bodies the largest was kept (volume {:.6e}), {} were dropped",
-                    volume(largest),
+                    volume_of(largest),
                     count - 1
                 ));
             }
@@ -273,7 +279,7 @@ fn choose(
     }
     let keeps = |b: u32| choice != Bodies::Largest || b as usize == largest;
     let mut stays = filled("faces", faces, false)?;
-    let (mut loose, mut openness, mut area) = (0, 0.0, 0.0);
+    let (mut loose, mut openness, mut area, mut volume) = (0, 0.0, 0.0, 0.0);
     for part in parts {
         match part.body {
             None => loose += part.faces.len(),
@@ -281,10 +287,13 @@ fn choose(
                 part.faces.iter().for_each(|&f| stays[f as usize] = true);
                 openness += part.openness * part.extent.area;
                 area += part.extent.area;
+                volume += part.volume();
             }
             Some(_) => {}
         }
     }
+    report.volume = volume * frame.scale.powi(3);
+    report.area = area * frame.scale * frame.scale;
     if loose > 0 {
         report
             .notes
@@ -308,7 +317,13 @@ fn choose(
 }
 
 /// The shape of what stays: compact vertices, own unit frame, volume, area, box.
-fn finish(points: &[Vec3], kept: Vec<[u32; 3]>, mut report: Report) -> Result<Shape> {
+/// `edges`: those of `kept`, if they are known.
+fn finish(
+    points: &[Vec3],
+    kept: Vec<[u32; 3]>,
+    edges: Option<Edges>,
+    mut report: Report,
+) -> Result<Shape> {
     let frame = frame_of(points, &kept)?;
     let mut index = filled("vertex indices", points.len(), u32::MAX)?;
     let mut mesh = Mesh { vertices: Vec::new(), faces: kept, clean: false };
@@ -323,16 +338,18 @@ fn finish(points: &[Vec3], kept: Vec<[u32; 3]>, mut report: Report) -> Result<Sh
         }
         *corner = index[old];
     }
-    let edges = Edges::of(&mesh.faces)?;
+    let edges = match edges {
+        Some(mut edges) => {
+            edges.renumber(&index);
+            edges
+        }
+        None => Edges::of(&mesh.faces)?,
+    };
     report.watertight = edges.faulty() == 0;
     report.oriented = edges.misoriented == 0;
     mesh.clean = report.watertight && report.oriented;
-    let one = filled("parts", mesh.faces.len(), 0)?;
-    let extent = inside::extents(&mesh.faces, &mesh.vertices, &one, 1, &edges)?[0];
     report.vertices = mesh.vertices.len() as u64;
     report.faces = mesh.faces.len() as u64;
-    report.volume = extent.volume * frame.scale.powi(3);
-    report.area = extent.area * frame.scale * frame.scale;
     report.box_min = lo.into();
     report.box_max = hi.into();
     if !report.watertight {

@@ -28,6 +28,9 @@ const SCRAP: f64 = 1e-3;
 /// Patches of one surface may be this far apart (unit frame).
 const NEAR: f64 = 1e-3;
 
+/// How many corners of a part are looked up in another.
+const PROBES: usize = 64;
+
 /// One connected piece of the surface, or several that close each other's openings.
 #[derive(Debug, Clone)]
 pub struct Part {
@@ -68,11 +71,10 @@ impl Part {
         }
     }
 
-    /// Adds the faces of another part.
+    /// Adds the faces of another part; the volume is to be found anew.
     fn take(&mut self, other: Part) {
         self.faces.extend(other.faces);
         self.faces.sort_unstable();
-        self.extent.volume += other.extent.volume;
         self.extent.area += other.extent.area;
         self.lo = self.lo.inf(&other.lo);
         self.hi = self.hi.sup(&other.hi);
@@ -151,6 +153,8 @@ fn join_patches(
     }
     for i in (0..parts.len()).filter(|&i| grown[i]) {
         run.check(0.6, "judging the openings of the mesh")?;
+        let mine = parts[i].faces.iter().map(|&f| &faces[f as usize]);
+        parts[i].extent.volume = inside::volume_of_patches(mine, points);
         parts[i].openness =
             inside::openness(&spots(&parts[i]), &field(&parts[i].faces), run.pool());
     }
@@ -193,18 +197,25 @@ pub fn bodies(
         run.check(0.7, "sorting the mesh into bodies")?;
         let boxed = |p: &Part| p.faces.iter().map(|&f| Face::new(corners(f))).collect::<Vec<_>>();
         let contact = cross::contact(&boxed(big), &boxed(small));
-        if contact != Contact::None {
+        let field = fields[i].get_or_insert_with(|| {
+            Field::new(big.faces.iter().map(|&f| &faces[f as usize]), points)
+        });
+        let probes: Vec<f64> = small
+            .faces
+            .iter()
+            .step_by(small.faces.len().div_ceil(PROBES))
+            .map(|&f| field.at(&corners(f)[0]))
+            .collect();
+        // Edges that run just through other edges cross no face: the corners tell. Between
+        // these figures a corner lies on the surface, or near an opening.
+        let split = probes.iter().any(|w| w.abs() > 0.75) && probes.iter().any(|w| w.abs() < 0.25);
+        let crosses = contact == Contact::Cross || split;
+        let mean = probes.iter().sum::<f64>() / probes.len() as f64;
+        if crosses || contact == Contact::Wall {
             union.join(i as u32, j as u32);
-            overlap |= contact == Contact::Cross;
-        } else if big.box_holds(small) {
-            let field = fields[i].get_or_insert_with(|| {
-                Field::new(big.faces.iter().map(|&f| &faces[f as usize]), points)
-            });
-            let [a, b, c] = corners(small.faces[0]);
-            let w = field.at(&((a + b + c) / 3.0));
-            if w.abs() > 0.5 {
-                holders[j].push((i, w));
-            }
+            overlap |= crosses;
+        } else if mean.abs() > 0.5 && big.box_holds(small) {
+            holders[j].push((i, mean));
         }
     }
     let mut held: Vec<Vec<usize>> = filled("parts", n, Vec::new())?;

@@ -59,11 +59,11 @@ impl Union {
 /// One face's side of an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Side {
-    /// Lower vertex in the upper half, higher vertex in the lower half.
+    /// One vertex in the upper half, the other in the lower half.
     pub key: u64,
     /// The face.
     pub face: u32,
-    /// Whether the face runs from the lower to the higher vertex.
+    /// Whether the face runs from the one vertex to the other.
     pub forward: bool,
 }
 
@@ -105,6 +105,14 @@ impl Edges {
         edges.nonmanifold = nonmanifold;
         edges.misoriented = misoriented;
         Ok(edges)
+    }
+
+    /// Gives the vertices other numbers.
+    pub fn renumber(&mut self, index: &[u32]) {
+        for s in &mut self.sides {
+            let (from, to) = (index[(s.key >> 32) as usize], index[s.key as u32 as usize]);
+            s.key = (u64::from(from) << 32) | u64::from(to);
+        }
     }
 
     /// Edges that do not have exactly two faces.
