@@ -1,5 +1,6 @@
 //! `include/morula.f90` against `include/morula.h`: the same functions with the
 //! same arguments, the same structs with the same fields, the same constants.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
 use std::collections::BTreeMap;
 
