@@ -272,6 +272,7 @@ static void clumps(void) {
 
   /* A deadline that has passed at once leaves a clump all the same. */
   options.deadline_seconds = 1e-9;
+  last = 0;
   options.wants = MORULA_WANT_NOTHING;
   options.plane_tolerance_count = 0;
   OK(morula_clump_from_shape(shape, NULL, &options, &clump));
@@ -284,6 +285,7 @@ static void clumps(void) {
   double xyzr[20][4], distance;
   options.deadline_seconds = 0;
   options.confine = 1;
+  last = 0;
   OK(morula_clump_from_shape(shape, NULL, &options, &clump));
   OK(morula_solid_from_shape(shape, NULL, &solid));
   OK(morula_clump_sphere_count(clump, &n));

@@ -35,7 +35,7 @@ static void meshes(void) {
   for (int i = 0; i < 36; i++) vertices[i] = 4; /* a point */
   mesh(12, 20, MORULA_STATUS_ZERO_VOLUME, "");
   mesh(12, 1, MORULA_STATUS_ZERO_VOLUME, ""); /* a single triangle */
-  mesh(12, 4, MORULA_STATUS_ZERO_VOLUME, "");
+  mesh(12, 4, MORULA_STATUS_OPEN_SURFACE, ""); /* two sheets */
 
   /* Counted from 1, the message counts from 1 as well. */
   morula_import_options import;

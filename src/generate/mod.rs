@@ -2,7 +2,7 @@
 
 pub mod mss;
 
-use crate::clump::Clump;
+use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result};
 use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
@@ -59,10 +59,15 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
     let mut clump = run.time(Stage::Generate, || match options.method {
         Method::Mss => mss::mss(solid, options, run),
     })?;
-    if let Some(wanted) = &options.quality {
-        let quality =
-            run.time(Stage::Measure, || measure::quality(solid, &clump.spheres, wanted, run))?;
-        clump.quality = Some(quality);
+    // A cancelled call measures no more: the clump goes out without figures.
+    if let Some(wanted) = &options.quality
+        && clump.stopped != Stopped::Cancelled
+    {
+        match run.time(Stage::Measure, || measure::quality(solid, &clump.spheres, wanted, run)) {
+            Ok(quality) => clump.quality = Some(quality),
+            Err(Error::Cancelled(_)) => {}
+            Err(error) => return Err(error),
+        }
     }
     clump.counters = run.counters();
     Ok(clump)
