@@ -1,4 +1,5 @@
 //! The rules of the house that no compiler checks.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use serde_json::Value;
 use std::path::{Path, PathBuf};

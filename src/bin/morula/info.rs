@@ -3,6 +3,7 @@
 use crate::clump::equivalent_diameter;
 use crate::fail::{About, Done};
 use crate::input::Reading;
+use crate::labels;
 use crate::progress::Bar;
 use crate::write;
 use morula::math::{Inertia, Moments, PrincipalFrame};
@@ -18,6 +19,9 @@ pub struct Args {
     /// Print one JSON object
     #[arg(long)]
     json: bool,
+    /// List the labels of a label volume instead
+    #[arg(long)]
+    labels: bool,
     /// Density, mass per cubed length unit [default: 1]
     #[arg(long, default_value_t = 1.0, value_parser = crate::input::positive)]
     density: f64,
@@ -32,6 +36,9 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Done {
+    if args.labels {
+        return labels::run(&args.input, &args.reading, args.json);
+    }
     let bar = Bar::new("info", args.quiet);
     let run = bar.attach(Run::new(args.threads).about("")?);
     let shape = args.reading.shape(&args.input, &run)?;

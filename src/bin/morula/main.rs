@@ -8,6 +8,7 @@ mod clump;
 mod fail;
 mod info;
 mod input;
+mod labels;
 mod progress;
 mod sample;
 mod view;
