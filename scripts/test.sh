@@ -75,7 +75,8 @@ step "cargo test" cargo test --locked --no-fail-fast
 have gfortran || install gfortran || true
 have gfortran || skip "Fortran cases of CTest" "gfortran is not installed"
 tree=build/test
-step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release
+step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release \
+    -DMORULA_CARGO_TARGET_DIR="$(pwd)/target"
 step "cmake build" cmake --build "$tree"
 step "ctest" ctest --test-dir "$tree" --output-on-failure
 

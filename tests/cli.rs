@@ -293,8 +293,17 @@ fn voxels_and_labels_are_read() {
     assert!((v["volume"].as_f64().unwrap() - 64.0 * 6.0).abs() < 1e-9, "{v}");
     let raw = folder.join("mask.raw");
     std::fs::write(&raw, &data).unwrap();
-    let printed =
-        succeeds(&["info", text(&raw), "--raw", "10x9x8:u8", "--bodies", "all", "--json"]);
+    let printed = succeeds(&[
+        "info",
+        text(&raw),
+        "--raw",
+        "10x9x8:u8",
+        "--threshold",
+        "0",
+        "--bodies",
+        "all",
+        "--json",
+    ]);
     let v: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(v["report"]["solid_cells"], 64 + 3 * 9 * 8);
 }
