@@ -50,6 +50,8 @@ pub fn draw(
         .collect();
     let half = 0.5 * FINE as f64;
     // Near the surface the field rounds sharp corners off: there the exact distance counts.
+    let lo = grid.center(0, 0, 0);
+    let hi = grid.center(grid.dims[0] - 1, grid.dims[1] - 1, grid.dims[2] - 1);
     let near = 0.75 * grid.spacing.max();
     let lines = run.pool().map(size[1], |row| {
         let mut line = vec![Mean::default(); size[0]];
@@ -58,11 +60,13 @@ pub fn draw(
                 for x in column * FINE..(column + 1) * FINE {
                     let [u, v] = buffer.plane(x, y);
                     let p = camera.unproject([u, v, depth]);
-                    let mut to_target = grid.trilinear(field, &p);
+                    // Off the grid the field says nothing, and nothing of the target is there.
+                    let off = (0..3).any(|a| p[a] < lo[a] || p[a] > hi[a]);
+                    let mut to_target = if off { 1e30 } else { grid.trilinear(field, &p) };
                     if to_target.abs() < near {
                         to_target = solid.surface().signed_distance(&p);
                     }
-                    to_target *= camera.scale;
+                    to_target = (to_target * camera.scale).min(1e30);
                     let mut to_union = f64::MAX;
                     let mut on_circle = false;
                     for c in &circles {
