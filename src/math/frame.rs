@@ -17,20 +17,19 @@ impl UnitFrame {
     /// The frame of a bounding box given in the caller's coordinates; `None`
     /// when the box is not finite or has no extent.
     pub fn of_box(lo: Vec3, hi: Vec3) -> Option<Self> {
-        let edge = (hi - lo).max();
-        if !(edge.is_finite() && edge > 0.0) {
+        // Far from where a difference or a scale would overflow.
+        let fits = |v: &Vec3| v.iter().all(|x| x.is_finite() && x.abs() < 1e300);
+        if !(fits(&lo) && fits(&hi)) {
             return None;
         }
-        // Exact power of two at or above the edge, without rounding in log2.
-        let mut scale = 2f64.powi(edge.log2().ceil() as i32);
-        while scale < edge {
-            scale *= 2.0;
+        let edge = (hi - lo).max();
+        if !(edge.is_normal() && edge > 0.0) {
+            return None;
         }
-        while scale * 0.5 >= edge {
-            scale *= 0.5;
-        }
-        (scale.is_normal() && lo.iter().all(|v| v.is_finite()))
-            .then_some(UnitFrame { offset: lo, scale })
+        // The power of two at or above the edge, from its bits: exact.
+        let below = f64::from_bits(edge.to_bits() & 0x7ff0_0000_0000_0000);
+        let scale = if below < edge { 2.0 * below } else { below };
+        Some(UnitFrame { offset: lo, scale })
     }
 
     /// Caller's point to unit frame.
@@ -63,5 +62,52 @@ impl UnitFrame {
             inertia: Inertia::from_matrix(&(m.inertia.matrix() * s5)),
             relative_error: m.relative_error,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Inertia;
+
+    #[test]
+    fn the_scale_is_the_power_of_two_at_or_above_the_edge() {
+        for (edge, scale) in
+            [(1.0, 1.0), (1.0000001, 2.0), (0.5, 0.5), (0.51, 1.0), (3.0, 4.0), (1e-3, 1.0 / 512.0)]
+        {
+            let f = UnitFrame::of_box(Vec3::zeros(), Vec3::new(0.1 * edge, edge, 0.0)).unwrap();
+            assert_eq!(f.scale, scale);
+        }
+        for k in [-900, -40, 40, 900] {
+            let hi = Vec3::new(3.0, 1.0, 2.0) * 2f64.powi(k);
+            assert_eq!(UnitFrame::of_box(Vec3::zeros(), hi).unwrap().scale, 2f64.powi(k + 2));
+        }
+    }
+
+    #[test]
+    fn boxes_without_extent_or_beyond_numbers_have_no_frame() {
+        for hi in [0.0, -1.0, f64::NAN, f64::INFINITY, f64::MAX, f64::MIN_POSITIVE * 0.25] {
+            assert!(UnitFrame::of_box(Vec3::zeros(), Vec3::repeat(hi)).is_none(), "{hi}");
+        }
+        assert!(UnitFrame::of_box(Vec3::repeat(-f64::MAX), Vec3::repeat(f64::MAX)).is_none());
+    }
+
+    #[test]
+    fn there_and_back() {
+        let lo = Vec3::new(-3.0, 7.0, 1024.0);
+        let f = UnitFrame::of_box(lo, lo + Vec3::new(5.0, 6.0, 7.0)).unwrap();
+        let p = Vec3::new(-1.0, 9.5, 1025.0);
+        assert_eq!(f.to_input(&f.to_unit(&p)), p);
+        let s = Sphere::new(p, 0.75);
+        assert_eq!(f.sphere_to_input(&f.sphere_to_unit(&s)), s);
+        let m = Moments {
+            volume: 1.0,
+            centroid: Vec3::repeat(0.5),
+            inertia: Inertia { xx: 1.0, ..Inertia::default() },
+            relative_error: 0.25,
+        };
+        let m = f.moments_to_input(&m);
+        assert_eq!((m.volume, m.inertia.xx, m.relative_error), (512.0, 32768.0, 0.25));
+        assert_eq!(m.centroid, lo + Vec3::repeat(4.0));
     }
 }
