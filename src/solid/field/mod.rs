@@ -5,9 +5,12 @@
 //! from the same exact columns that decide coverage. Voxels: the exact Euclidean
 //! distance transform of both sides, less half a cell.
 
+// Loops over lanes and axes index several arrays at once.
+#[allow(clippy::needless_range_loop)]
 mod bricks;
 mod cells;
-mod tree;
+#[allow(clippy::needless_range_loop)]
+mod features;
 
 use super::Solid;
 use super::columns::Columns;
@@ -20,7 +23,7 @@ use crate::shape::{Body, Mesh};
 pub(super) fn signed_distance(solid: &Solid, run: &Run) -> Result<Vec<f32>> {
     let out = match solid.body() {
         Body::Mesh(mesh) => {
-            let bytes = 4 * solid.grid().len() as u64 + tree::bytes(mesh.faces.len());
+            let bytes = 4 * solid.grid().len() as u64 + features::bytes(mesh.faces.len());
             if bytes > solid.memory_limit() {
                 return Err(Error::MemoryLimit(format!(
                     "the distance field of {} cells and {} faces may take {bytes} bytes, more \

@@ -1,0 +1,390 @@
+//! The faces, edges and corners of a mesh, each with the region of space from which it
+//! can be nearest, in units of the shortest cell edge from the grid's origin.
+//!
+//! A point whose nearest point lies within a face is above it (in the prism over it); one
+//! whose nearest lies on an edge is between the edge's ends and beyond the side of every
+//! face there; one whose nearest is a corner is behind it along every edge there. That
+//! holds for any set of triangles, closed or not. Half-spaces left out only make a region
+//! larger. (Mauch 2003 scans these regions; here they prune candidates.)
+
+use crate::error::{Result, filled, reserve};
+use crate::math::Vec3;
+use crate::shape::Mesh;
+use crate::solid::grid::Grid;
+use crate::solid::triangle;
+
+/// Points of one evaluation.
+pub(super) const LANES: usize = 8;
+/// One number for each of some points.
+pub(super) type Lanes = [f32; LANES];
+/// Some points, axis by axis.
+pub(super) type Points = [Lanes; 3];
+/// A half-space `n·x + o ≥ 0`, n of unit length.
+type Plane = [f32; 4];
+/// A half-space that holds everything.
+const ALL: Plane = [0.0, 0.0, 0.0, 1e9];
+/// Half-spaces of a corner's region.
+const AWAY: usize = 6;
+/// No distance.
+pub(super) const FAR: f32 = 1e15;
+/// Points this far out of a region count as in it (in cells): more than the rounding of
+/// coordinates up to 4096 in f32, less than anyone sees.
+const SLACK: f32 = 1e-3;
+
+/// What can be nearest. All of it is written lane by lane, for the compiler's vectors.
+pub(super) trait Feature {
+    /// Of each point, how deep it lies in the region's worst half-space; less than 0 is out.
+    /// With `half`, as deep as any point of a brick of these half extents about it may lie.
+    /// And an estimate of the squared distance.
+    fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes);
+    /// A convex function that is the distance within the region and nowhere more than it, and
+    /// its gradient.
+    fn tangent(&self, x: &Points) -> (Lanes, Points);
+    /// Lowers `best`, squared distances, where this feature is nearer.
+    fn nearer(&self, x: &Points, best: &mut Lanes);
+}
+
+#[inline(always)]
+fn height(p: &Plane, x: &Points, k: usize) -> f32 {
+    (p[0] * x[0][k] + p[1] * x[1][k]) + (p[2] * x[2][k] + p[3])
+}
+
+#[inline(always)]
+fn reach(n: &[f32], half: &[f32; 3]) -> f32 {
+    n[0].abs() * half[0] + n[1].abs() * half[1] + n[2].abs() * half[2] + SLACK
+}
+
+/// As `f32::min` without its care for NaN, which there is none of.
+#[inline(always)]
+fn least(a: f32, b: f32) -> f32 {
+    if a < b { a } else { b }
+}
+
+/// A face: height over its plane and the prism's sides.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Face {
+    plane: Plane,
+    sides: [Plane; 3],
+}
+
+impl Feature for Face {
+    #[inline(always)]
+    fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes) {
+        let (mut touch, mut score) = ([0.0; LANES], [0.0; LANES]);
+        let [a, b, c] = &self.sides;
+        let reach = [reach(a, half), reach(b, half), reach(c, half)];
+        for k in 0..LANES {
+            let (ha, hb, hc) = (height(a, x, k), height(b, x, k), height(c, x, k));
+            touch[k] = least(least(ha + reach[0], hb + reach[1]), hc + reach[2]);
+            let out = least(least(least(ha, hb), hc), 0.0);
+            let h = height(&self.plane, x, k);
+            score[k] = h * h + out * out;
+        }
+        (touch, score)
+    }
+
+    #[inline(always)]
+    fn tangent(&self, x: &Points) -> (Lanes, Points) {
+        let (mut level, mut slope) = ([0.0; LANES], [[0.0; LANES]; 3]);
+        for k in 0..LANES {
+            let h = height(&self.plane, x, k);
+            let sign = if h < 0.0 { -1.0 } else { 1.0 };
+            level[k] = h * sign;
+            slope[0][k] = self.plane[0] * sign;
+            slope[1][k] = self.plane[1] * sign;
+            slope[2][k] = self.plane[2] * sign;
+        }
+        (level, slope)
+    }
+
+    #[inline(always)]
+    fn nearer(&self, x: &Points, best: &mut Lanes) {
+        let [a, b, c] = &self.sides;
+        for k in 0..LANES {
+            let depth = least(least(height(a, x, k), height(b, x, k)), height(c, x, k));
+            let h = height(&self.plane, x, k);
+            let d = if depth >= -SLACK { h * h } else { FAR };
+            best[k] = least(d, best[k]);
+        }
+    }
+}
+
+/// An edge: its start, direction and length, and the sides of two faces there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Edge {
+    start: [f32; 3],
+    along: [f32; 3],
+    length: f32,
+    beyond: [Plane; 2],
+}
+
+impl Feature for Edge {
+    #[inline(always)]
+    fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes) {
+        let (mut touch, mut score) = ([0.0; LANES], [0.0; LANES]);
+        let (s, e) = (&self.start, &self.along);
+        let [a, b] = &self.beyond;
+        let reach = [reach(a, half), reach(b, half), reach(e, half)];
+        for k in 0..LANES {
+            let (dx, dy, dz) = (x[0][k] - s[0], x[1][k] - s[1], x[2][k] - s[2]);
+            let t = dx * e[0] + dy * e[1] + dz * e[2];
+            let within = least(t, self.length - t);
+            let (ha, hb) = (height(a, x, k), height(b, x, k));
+            touch[k] = least(least(ha + reach[0], hb + reach[1]), within + reach[2]);
+            let (rx, ry, rz) = (dx - t * e[0], dy - t * e[1], dz - t * e[2]);
+            let out = least(within, 0.0);
+            score[k] = (rx * rx + ry * ry + rz * rz) + out * out;
+        }
+        (touch, score)
+    }
+
+    #[inline(always)]
+    fn tangent(&self, x: &Points) -> (Lanes, Points) {
+        let mut r = [[0.0; LANES]; 3];
+        let (s, e) = (&self.start, &self.along);
+        for k in 0..LANES {
+            let (dx, dy, dz) = (x[0][k] - s[0], x[1][k] - s[1], x[2][k] - s[2]);
+            let t = dx * e[0] + dy * e[1] + dz * e[2];
+            r[0][k] = dx - t * e[0];
+            r[1][k] = dy - t * e[1];
+            r[2][k] = dz - t * e[2];
+        }
+        unit(r)
+    }
+
+    #[inline(always)]
+    fn nearer(&self, x: &Points, best: &mut Lanes) {
+        let (s, e) = (&self.start, &self.along);
+        for k in 0..LANES {
+            let (dx, dy, dz) = (x[0][k] - s[0], x[1][k] - s[1], x[2][k] - s[2]);
+            let t = dx * e[0] + dy * e[1] + dz * e[2];
+            let t = least(if t > 0.0 { t } else { 0.0 }, self.length);
+            let (rx, ry, rz) = (dx - t * e[0], dy - t * e[1], dz - t * e[2]);
+            best[k] = least(rx * rx + ry * ry + rz * rz, best[k]);
+        }
+    }
+}
+
+/// Lengths and directions; where the length is nearly none, none and no direction.
+#[inline(always)]
+fn unit(r: Points) -> (Lanes, Points) {
+    let (mut level, mut slope) = ([0.0; LANES], r);
+    for k in 0..LANES {
+        let d2 = r[0][k] * r[0][k] + r[1][k] * r[1][k] + r[2][k] * r[2][k];
+        let safe = if d2 > 1e-8 { d2 } else { 1e-8 };
+        let inverse = (if d2 > 1e-8 { 1.0 } else { 0.0 }) / safe.sqrt();
+        level[k] = d2 * inverse;
+        slope[0][k] = r[0][k] * inverse;
+        slope[1][k] = r[1][k] * inverse;
+        slope[2][k] = r[2][k] * inverse;
+    }
+    (level, slope)
+}
+
+/// A corner and the directions of edges from it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Corner {
+    at: [f32; 3],
+    away: [[f32; 3]; AWAY],
+}
+
+impl Feature for Corner {
+    #[inline(always)]
+    fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes) {
+        let (mut touch, mut score) = ([FAR; LANES], [0.0; LANES]);
+        let mut r = [[0.0; LANES]; 3];
+        for k in 0..LANES {
+            r[0][k] = self.at[0] - x[0][k];
+            r[1][k] = self.at[1] - x[1][k];
+            r[2][k] = self.at[2] - x[2][k];
+            score[k] = r[0][k] * r[0][k] + r[1][k] * r[1][k] + r[2][k] * r[2][k];
+        }
+        for n in &self.away {
+            let reach = reach(n, half);
+            for k in 0..LANES {
+                let h = n[0] * r[0][k] + n[1] * r[1][k] + n[2] * r[2][k];
+                touch[k] = least(h + reach, touch[k]);
+            }
+        }
+        (touch, score)
+    }
+
+    #[inline(always)]
+    fn tangent(&self, x: &Points) -> (Lanes, Points) {
+        let mut r = [[0.0; LANES]; 3];
+        for k in 0..LANES {
+            r[0][k] = x[0][k] - self.at[0];
+            r[1][k] = x[1][k] - self.at[1];
+            r[2][k] = x[2][k] - self.at[2];
+        }
+        unit(r)
+    }
+
+    #[inline(always)]
+    fn nearer(&self, x: &Points, best: &mut Lanes) {
+        nearer_point(&self.at, x, best);
+    }
+}
+
+/// Lowers `best`, squared distances, where the point `p` is nearer.
+#[inline(always)]
+pub(super) fn nearer_point(p: &[f32; 3], x: &Points, best: &mut Lanes) {
+    for k in 0..LANES {
+        let (dx, dy, dz) = (x[0][k] - p[0], x[1][k] - p[1], x[2][k] - p[2]);
+        best[k] = least(dx * dx + dy * dy + dz * dz, best[k]);
+    }
+}
+
+/// All features of a mesh.
+pub(super) struct Features {
+    pub faces: Vec<Face>,
+    pub edges: Vec<Edge>,
+    pub corners: Vec<Corner>,
+    /// Corners of the face of the same index.
+    triangles: Vec<[Vec3; 3]>,
+}
+
+/// What the features of so many faces take, with what it takes to find them.
+pub(super) fn bytes(faces: usize) -> u64 {
+    let per = size_of::<Face>()
+        + size_of::<[Vec3; 3]>()
+        + 3 * size_of::<Side>()
+        + 2 * size_of::<Edge>()
+        + size_of::<Corner>()
+        + 6 * 8;
+    per as u64 * faces as u64
+}
+
+/// A side of a face: its ends in order, and the half-space away from the face.
+#[derive(Debug, Clone, Copy)]
+struct Side {
+    ends: [u32; 2],
+    away: Plane,
+}
+
+impl Features {
+    pub(super) fn new(mesh: &Mesh, grid: &Grid, unit: f64) -> Result<Features> {
+        const WHAT: &str = "the features of the mesh";
+        let n = mesh.faces.len();
+        let local = |v: &Vec3| (v - grid.origin) / unit;
+        let mut faces = reserve(WHAT, n)?;
+        let mut triangles = reserve(WHAT, n)?;
+        let mut sides: Vec<Side> = reserve(WHAT, n.saturating_mul(3))?;
+        for (i, f) in mesh.faces.iter().enumerate() {
+            let t = mesh.corners(i).map(|v| local(&v));
+            let (face, away) = face(&t);
+            for k in 0..3 {
+                let (a, b) = (f[k], f[(k + 1) % 3]);
+                if a != b {
+                    sides.push(Side { ends: [a.min(b), a.max(b)], away: away[k] });
+                }
+            }
+            faces.push(face);
+            triangles.push(t);
+        }
+        sides.sort_by_key(|s| s.ends);
+        let count = sides.chunk_by(|a, b| a.ends == b.ends).count();
+        let mut edges = reserve(WHAT, count)?;
+        let mut ends = reserve(WHAT, count)?;
+        for group in sides.chunk_by(|a, b| a.ends == b.ends) {
+            let [a, b] = group[0].ends.map(|v| local(&mesh.vertices[v as usize]));
+            let length = (b - a).norm();
+            // A length of none is a corner.
+            if length > 1e-9 {
+                let beyond = [group[0].away, group.get(1).map_or(ALL, |s| s.away)];
+                let along = single(&((b - a) / length));
+                edges.push(Edge { start: single(&a), along, length: length as f32, beyond });
+                ends.push((group[0].ends, along));
+            }
+        }
+        let corners = corners(mesh, &ends, local)?;
+        Ok(Features { faces, edges, corners, triangles })
+    }
+
+    /// The point of face `i` that is nearest to `c`.
+    pub(super) fn on_face(&self, i: u32, c: &Vec3) -> Vec3 {
+        triangle::closest(&self.triangles[i as usize], c)
+    }
+
+    /// The point of edge `i` that is nearest to `c`.
+    pub(super) fn on_edge(&self, i: u32, c: &Vec3) -> Vec3 {
+        let e = &self.edges[i as usize];
+        let (start, along) = (double(&e.start), double(&e.along));
+        start + along * along.dot(&(c - start)).clamp(0.0, f64::from(e.length))
+    }
+
+    /// Corner `i`.
+    pub(super) fn on_corner(&self, i: u32) -> Vec3 {
+        double(&self.corners[i as usize].at)
+    }
+}
+
+pub(super) fn single(v: &Vec3) -> [f32; 3] {
+    [v.x as f32, v.y as f32, v.z as f32]
+}
+
+fn double(v: &[f32; 3]) -> Vec3 {
+    Vec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
+}
+
+/// The half-space through `v` on the side of the unit vector `n`.
+fn plane(n: &Vec3, v: &Vec3) -> Plane {
+    [n.x as f32, n.y as f32, n.z as f32, -n.dot(v) as f32]
+}
+
+/// A face and the half-spaces away from its sides. One without area has no prism (its edges
+/// stand for it) and no sides.
+fn face(t: &[Vec3; 3]) -> (Face, [Plane; 3]) {
+    let edges = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
+    let longest2 = edges.iter().map(|e| e.norm_squared()).fold(0.0, f64::max);
+    let cross = edges[0].cross(&edges[1]);
+    const NONE: Plane = [0.0, 0.0, 0.0, -FAR];
+    if longest2 < 1e-200 || cross.norm_squared() <= 1e-24 * longest2 * longest2 {
+        return (Face { plane: NONE, sides: [NONE; 3] }, [ALL; 3]);
+    }
+    let n = cross.normalize();
+    let inward: [Vec3; 3] = std::array::from_fn(|k| n.cross(&edges[k]).normalize());
+    let sides = std::array::from_fn(|k| plane(&inward[k], &t[k]));
+    let away = std::array::from_fn(|k| plane(&-inward[k], &t[k]));
+    (Face { plane: plane(&n, &t[0]), sides }, away)
+}
+
+/// The corners, each with some of the edges that meet there.
+fn corners(
+    mesh: &Mesh,
+    ends: &[([u32; 2], [f32; 3])],
+    local: impl Fn(&Vec3) -> Vec3,
+) -> Result<Vec<Corner>> {
+    const WHAT: &str = "the corners of the mesh";
+    // The edges of each vertex, one vertex after the other.
+    let mut starts = filled(WHAT, mesh.vertices.len() + 1, 0u32)?;
+    for (ends, _) in ends {
+        for &v in ends {
+            starts[v as usize + 1] += 1;
+        }
+    }
+    for v in 1..starts.len() {
+        starts[v] += starts[v - 1];
+    }
+    let mut next = filled(WHAT, mesh.vertices.len(), 0u32)?;
+    next.copy_from_slice(&starts[..mesh.vertices.len()]);
+    let mut list = filled(WHAT, 2 * ends.len(), [0f32; 3])?;
+    for ([a, b], along) in ends {
+        for (v, direction) in [(a, *along), (b, along.map(|c| -c))] {
+            list[next[*v as usize] as usize] = direction;
+            next[*v as usize] += 1;
+        }
+    }
+    let mut corners = reserve(WHAT, mesh.vertices.len())?;
+    for (v, range) in starts.windows(2).enumerate() {
+        let edges = &list[range[0] as usize..range[1] as usize];
+        if let Some(first) = edges.first() {
+            // Evenly among them, in the order of the other ends.
+            let away = std::array::from_fn(|k| {
+                *edges.get(k * edges.len() / AWAY.min(edges.len())).unwrap_or(first)
+            });
+            corners.push(Corner { at: single(&local(&mesh.vertices[v])), away });
+        }
+    }
+    Ok(corners)
+}
