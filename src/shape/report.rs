@@ -26,9 +26,9 @@ pub struct Report {
     pub inverted: bool,
     /// Faces turned by the repair of orientation (not counting a whole inversion).
     pub faces_turned: u64,
-    /// Edges with one face, after welding.
+    /// Edges with one face, after welding and before the choice of bodies.
     pub boundary_edges: u64,
-    /// Edges with more than two faces, after welding.
+    /// Edges with more than two faces, after welding and before the choice of bodies.
     pub nonmanifold_edges: u64,
     /// Faces without area, dropped.
     pub degenerate_faces: u64,
@@ -40,7 +40,8 @@ pub struct Report {
     pub touches_border: bool,
     /// Bodies dropped by the choice `Largest`.
     pub bodies_dropped: u64,
-    /// Signed volume of the surface after repair, or of the solid cells.
+    /// Signed volume of the surface after repair, openings closed by fans, overlaps of parts
+    /// counted more than once; or of the solid cells.
     pub volume: f64,
     /// Surface area, or area of the cells' outer faces.
     pub area: f64,

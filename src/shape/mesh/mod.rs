@@ -1,6 +1,7 @@
 //! Triangle meshes from arrays: checked, welded, repaired where that is safe,
 //! or refused with the reason.
 
+mod check;
 mod cross;
 mod inside;
 mod orient;
@@ -74,20 +75,17 @@ impl Shape {
     }
 }
 
-/// Lengths outside of this range would overflow or vanish in an inertia (length⁵).
-const SIZES: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
-
 fn import(
     vertices: &[[f64; 3]],
     faces: &[[u32; 3]],
     options: &ImportOptions,
     run: &Run,
 ) -> Result<Shape> {
-    check_options(options)?;
-    check_counts(vertices.len(), faces.len(), options)?;
+    check::options(options)?;
+    check::counts(vertices.len(), faces.len(), options)?;
     run.check(0.0, "checking the mesh")?;
-    let points = scaled(vertices, options.length_unit)?;
-    check_indices(faces, points.len())?;
+    let points = check::scaled(vertices, options.length_unit)?;
+    check::indices(faces, points.len())?;
 
     let mut report = Report {
         input_vertices: points.len() as u64,
@@ -100,7 +98,7 @@ fn import(
     }
 
     // A frame for the repair; the body's own follows when it is known what stays.
-    let frame = frame_of(&points, faces)?;
+    let frame = check::frame_of(&points, faces)?;
     let mut unit: Vec<Vec3> = reserve("vertices", points.len())?;
     unit.extend(points.iter().map(|p| frame.to_unit(p)));
     let weld = weld::weld(&unit, faces, options.weld_tolerance)?;
@@ -324,7 +322,7 @@ fn finish(
     edges: Option<Edges>,
     mut report: Report,
 ) -> Result<Shape> {
-    let frame = frame_of(points, &kept)?;
+    let frame = check::frame_of(points, &kept)?;
     let mut index = filled("vertex indices", points.len(), u32::MAX)?;
     let mut mesh = Mesh { vertices: Vec::new(), faces: kept, clean: false };
     let (mut lo, mut hi) = (Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN));
@@ -360,95 +358,4 @@ fn finish(
         ));
     }
     Ok(Shape { body: Body::Mesh(mesh), frame, report })
-}
-
-fn check_options(options: &ImportOptions) -> Result<()> {
-    let t = options.weld_tolerance;
-    if !(0.0..=1e-3).contains(&t) {
-        return Err(Error::InvalidArgument(format!(
-            "weld_tolerance is {t}, outside of 0 to 0.001 of the longest edge"
-        )));
-    }
-    let u = options.length_unit;
-    if !(u.is_finite() && SIZES.contains(&u)) {
-        return Err(Error::InvalidArgument(format!(
-            "length_unit is {u}, not a length between {:e} and {:e}",
-            SIZES.start(),
-            SIZES.end()
-        )));
-    }
-    Ok(())
-}
-
-fn check_counts(vertices: usize, faces: usize, options: &ImportOptions) -> Result<()> {
-    if faces == 0 {
-        return Err(Error::Empty(format!("the mesh has {vertices} vertices but no faces")));
-    }
-    let most = (u32::MAX / 4) as usize;
-    if vertices > most || faces > most {
-        return Err(Error::TooLarge(format!(
-            "{vertices} vertices and {faces} faces are more than the {most} that can be indexed"
-        )));
-    }
-    // While welding: points, unit points, sorting keys. Later: edges, neighbours, parts.
-    let (v, f) = (vertices as u64, faces as u64);
-    let bytes = u64::max(v * 100 + f * 24, v * 60 + f * 170);
-    if bytes > options.memory_limit {
-        return Err(Error::MemoryLimit(format!(
-            "{vertices} vertices and {faces} faces need about {bytes} bytes, the limit is {}",
-            options.memory_limit
-        )));
-    }
-    Ok(())
-}
-
-/// The vertices in the caller's unit, after `length_unit`.
-fn scaled(vertices: &[[f64; 3]], unit: f64) -> Result<Vec<Vec3>> {
-    let mut points = reserve("vertices", vertices.len())?;
-    for (i, v) in vertices.iter().enumerate() {
-        for (axis, &x) in ["x", "y", "z"].iter().zip(v) {
-            if !x.is_finite() {
-                return Err(Error::NotFinite(format!("vertex {i} has {axis} = {x}")));
-            }
-            if x.abs() > *SIZES.end() / unit.max(1.0) {
-                return Err(Error::InvalidArgument(format!(
-                    "vertex {i} has {axis} = {x:e}, beyond {:e}",
-                    SIZES.end()
-                )));
-            }
-        }
-        points.push(Vec3::from(*v) * unit);
-    }
-    Ok(points)
-}
-
-fn check_indices(faces: &[[u32; 3]], vertices: usize) -> Result<()> {
-    for (i, f) in faces.iter().enumerate() {
-        if let Some(v) = f.iter().find(|&&v| v as usize >= vertices) {
-            return Err(Error::IndexOutOfRange(format!(
-                "face {i} names vertex {v}, but there are only {vertices} vertices (0 to {})",
-                vertices as i64 - 1
-            )));
-        }
-    }
-    Ok(())
-}
-
-/// The unit frame of the vertices that the faces use.
-fn frame_of(points: &[Vec3], faces: &[[u32; 3]]) -> Result<UnitFrame> {
-    let (mut lo, mut hi) = (Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN));
-    for &v in faces.iter().flatten() {
-        lo = lo.inf(&points[v as usize]);
-        hi = hi.sup(&points[v as usize]);
-    }
-    let edge = (hi - lo).max();
-    if edge > 0.0 && !SIZES.contains(&edge) {
-        return Err(Error::InvalidArgument(format!(
-            "the longest edge of the bounding box is {edge:e}, outside of {:e} to {:e}",
-            SIZES.start(),
-            SIZES.end()
-        )));
-    }
-    UnitFrame::of_box(lo, hi)
-        .ok_or_else(|| Error::ZeroVolume(format!("all {} faces lie in one point", faces.len())))
 }
