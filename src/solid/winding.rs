@@ -8,6 +8,8 @@
 //! S = ½∫n⊗y⊗y dA, symmetric and without traces (these give no field, for 1/|d|
 //! is harmonic). A near leaf sums its solid angles.
 
+pub use crate::math::solid_angle;
+
 use crate::math::Vec3;
 use crate::shape::Mesh;
 
@@ -279,13 +281,4 @@ fn split(order: &[(u64, u32)], first: usize, last: usize) -> usize {
     }
     let bit = 1u64 << (63 - (a ^ b).leading_zeros());
     first + order[first..last].partition_point(|o| o.0 & bit == 0)
-}
-
-/// Signed solid angle of a triangle from `p` (van Oosterom and Strackee 1983).
-pub fn solid_angle(t: &[Vec3; 3], p: &Vec3) -> f64 {
-    let [a, b, c] = t.map(|v| v - p);
-    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
-    let numerator = a.dot(&b.cross(&c));
-    let denominator = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-    2.0 * numerator.atan2(denominator)
 }
