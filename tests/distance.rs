@@ -246,11 +246,11 @@ fn balls_of_voxels_are_within_half_a_cell() {
         let centre = solid.moments().centroid;
         let (mut sum, mut sum2, mut worst) = ([0.0; 2], [0.0; 2], 0.0f64);
         let mut n = [0.0; 2];
-        for at in 0..grid.len() {
+        for (at, &d) in field.iter().enumerate() {
             let [nx, ny, _] = grid.dims;
             let p = grid.center(at % nx, at / nx % ny, at / nx / ny);
             let exact = (solid.frame().to_input(&p) - centre).norm() - radius;
-            let d = f64::from(field[at]) * solid.frame().scale;
+            let d = f64::from(d) * solid.frame().scale;
             let side = usize::from(d > 0.0);
             // In size: too deep inside and too far outside are positive.
             let e = if side == 1 { d - exact } else { exact - d };
