@@ -3,11 +3,12 @@
 //! cross themselves, and by every quality figure.
 
 mod cells;
+mod holes;
 mod open;
 mod raster;
 mod spheres;
 
-pub(super) use raster::closed;
+pub(super) use holes::closed;
 
 use crate::error::{Error, Result, filled, reserve};
 use crate::math::Vec3;
@@ -157,7 +158,7 @@ impl Columns {
     /// Meshes whose directed edges cancel (all clean ones): signed crossings, inside where
     /// the winding number is above ½; a column through an edge or a vertex is counted as one
     /// that passes an infinitesimal step beside it. Other meshes: the winding number between
-    /// crossings, at a finite number of places over holes. Voxels: runs of cells.
+    /// crossings, near holes at a finite number of places. Voxels: runs of cells.
     pub fn new(
         body: &Body,
         axis: usize,
@@ -174,8 +175,15 @@ impl Columns {
         let total = check(&lattice)?;
         let bands = match body {
             Body::Voxels(voxels) => cells::bands(voxels, &lattice, pool)?,
-            Body::Mesh(mesh) if mesh.clean || closed(mesh)? => raster::bands(mesh, &lattice, pool)?,
-            Body::Mesh(mesh) => open::bands(mesh, &lattice, pool)?,
+            Body::Mesh(mesh) if mesh.clean => raster::bands(mesh, &lattice, pool)?,
+            Body::Mesh(mesh) => {
+                let border = holes::border(mesh)?;
+                if border.is_empty() {
+                    raster::bands(mesh, &lattice, pool)?
+                } else {
+                    open::bands(mesh, &border, &lattice, pool)?
+                }
+            }
         };
         Columns::gather(bands, lattice, total)
     }

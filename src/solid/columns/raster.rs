@@ -26,23 +26,6 @@ pub(super) struct Crossing {
 /// Crossings of one band: 2^26 of them take a GiB.
 const MOST_CROSSINGS: usize = 1 << 26;
 
-/// Whether every edge is run through as often one way as the other. The winding number is then
-/// an integer, and the signed crossings of a column give it.
-pub(in crate::solid) fn closed(mesh: &Mesh) -> Result<bool> {
-    let mut edges: Vec<(u32, u32, bool)> = reserve("edges", mesh.faces.len().saturating_mul(3))?;
-    for f in &mesh.faces {
-        for (a, b) in [(f[0], f[1]), (f[1], f[2]), (f[2], f[0])] {
-            if a != b {
-                edges.push((a.min(b), a.max(b), a < b));
-            }
-        }
-    }
-    edges.sort_unstable();
-    let sums_to_zero =
-        |run: &[(u32, u32, bool)]| 2 * run.iter().filter(|e| e.2).count() == run.len();
-    Ok(edges.chunk_by(|x, y| (x.0, x.1) == (y.0, y.1)).all(sums_to_zero))
-}
-
 /// The faces that may cross each band of rows.
 pub(super) struct Binned<'a> {
     mesh: &'a Mesh,
