@@ -119,7 +119,8 @@ int main() {
     caught = true;
   }
   CHECK(caught);
-  CHECK(status_of([&] { morula::Solid(shape, {}, [](double) { return false; }); }) ==
+  const morula::Shape tablet = morula::Shape::from_primitive("tablet");
+  CHECK(status_of([&] { morula::Solid(tablet, {}, [](double) { return false; }); }) ==
         MORULA_STATUS_CANCELLED);
 
   // The other ways in.

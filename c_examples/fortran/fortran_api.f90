@@ -331,6 +331,7 @@ contains
     ! From the shape, in the body frame; back by p = R b + centre.
     options%frame = MORULA_FRAME_BODY
     options%wants = MORULA_WANT_NOTHING
+    last_fraction = 0
     call body%create(s, options, solid_options)
     call body%copy_spheres(in_body)
     r = reshape(m%rotation, [3, 3])
