@@ -81,10 +81,12 @@ impl Cones {
             sum.0 += mesh.vertices[v as usize];
             sum.1 += 1.0;
         }
-        let mut closed = Mesh::default();
-        closed.vertices = reserve("vertices", mesh.vertices.len() + ids.len())?;
+        let mut closed = Mesh {
+            vertices: reserve("vertices", mesh.vertices.len() + ids.len())?,
+            faces: reserve("faces", mesh.faces.len() + border.len())?,
+            clean: false,
+        };
         closed.vertices.extend_from_slice(&mesh.vertices);
-        closed.faces = reserve("faces", mesh.faces.len() + border.len())?;
         let mut parts = Vec::new();
         let mut part_of = vec![usize::MAX; ids.len()];
         for (i, (sum, count)) in sums.iter().enumerate() {
