@@ -42,7 +42,7 @@ pub struct Reading {
     #[arg(long, value_name = "NXxNYxNZ[:TYPE[:SKIP]]", value_parser = raw)]
     raw: Option<Raw>,
     /// Edges around a built-in particle (sample:NAME)
-    #[arg(long, default_value_t = 96)]
+    #[arg(long, default_value_t = 64)]
     segments: usize,
     /// Most memory that arrays may take: bytes, or with KiB, MiB, GiB
     #[arg(long, value_name = "BYTES", default_value = "2GiB", value_parser = bytes)]

@@ -16,7 +16,7 @@ pub struct Args {
     #[arg(long)]
     seed: Option<u64>,
     /// Edges around the body
-    #[arg(long, default_value_t = 96)]
+    #[arg(long, default_value_t = 64)]
     segments: usize,
     /// File to write: .stl, .ply, .off or .obj
     #[arg(short, long, value_name = "FILE", required_unless_present = "list")]
