@@ -6,6 +6,7 @@
 //! plane cuts is in exactly when its centre is; what is sampled are edges,
 //! corners and curvature.
 
+use super::moments::wide_open;
 use super::{Columns, Grid};
 use crate::error::{Error, Result, filled};
 use crate::run::Run;
@@ -14,7 +15,7 @@ use crate::shape::Body;
 /// Columns per cell along each sampled axis; odd, so that one runs through the centre. On a ball
 /// of 12 cells 3 decide as 12³ points do but for cells within 0.03 of a half.
 const COLUMNS: usize = 3;
-/// For meshes that need winding numbers, at many times the cost of a column.
+/// For meshes that are wide open, where a column costs many winding numbers.
 const COLUMNS_OPEN: usize = 1;
 /// The lattice is widened by this about the box's middle: faces at round fractions of a cell,
 /// such as cell centres, then meet no column, and mirrored faces are decided alike.
@@ -28,7 +29,7 @@ const AT_ONCE: usize = 1 << 21;
 /// `padding` cells clear around it.
 pub fn inside(body: &Body, grid: &Grid, padding: usize, run: &Run) -> Result<Vec<u8>> {
     let k = match body {
-        Body::Mesh(m) if !m.clean => COLUMNS_OPEN,
+        Body::Mesh(m) if !m.clean && wide_open(m) => COLUMNS_OPEN,
         _ => COLUMNS,
     };
     covered(body, grid, padding, k, run)

@@ -2,6 +2,7 @@
 
 use super::Columns;
 use super::columns::{Lattice, closed};
+use super::winding::Winding;
 use crate::error::{Error, Result};
 use crate::math::{Inertia, Moments, Vec3};
 use crate::run::Run;
@@ -13,8 +14,10 @@ const CHUNK: usize = 4096;
 const LOOK: usize = 64;
 /// Columns along each sampled axis that integrate a mesh whose edges cancel.
 const CLOSED: usize = 384;
-/// … and one that is open, where each column costs many winding numbers.
+/// … one with small openings, and one that is wide open, where each column costs many winding
+/// numbers.
 const OPEN: usize = 96;
+const WIDE_OPEN: usize = 40;
 /// Share of the volume that may be miscounted before columns integrate better than signed sums.
 const OVERLAP: f64 = 1e-4;
 /// Columns along the three axes that differ by more than this describe no body.
@@ -33,7 +36,8 @@ pub fn moments(body: &Body, run: &Run) -> Result<Moments> {
                 return Err(Error::Empty("the mesh has no face".into()));
             };
             if !(mesh.clean || closed(mesh)?) {
-                return by_columns(body, lo, hi, OPEN, run);
+                let n = if wide_open(mesh) { WIDE_OPEN } else { OPEN };
+                return by_columns(body, lo, hi, n, run);
             }
             let exact = of_polyhedron(mesh, &((lo + hi) * 0.5), run);
             let mut miscounted = 0.0f64;
@@ -56,6 +60,20 @@ pub fn moments(body: &Body, run: &Run) -> Result<Moments> {
             Ok(Moments { relative_error, ..exact })
         }
     }
+}
+
+/// Whether the openings are felt in a tenth of the box or more: the winding number there, on
+/// 8³ points, is far from whole.
+pub(super) fn wide_open(mesh: &Mesh) -> bool {
+    const N: usize = 8;
+    let Some((lo, hi)) = bounds(mesh) else { return false };
+    let winding = Winding::new(mesh);
+    let felt = (0..N * N * N).filter(|q| {
+        let at = [q % N, q / N % N, q / (N * N)].map(|i| (i as f64 + 0.5) / N as f64);
+        let w = winding.at(&(lo + (hi - lo).component_mul(&Vec3::from(at))));
+        (w - w.round()).abs() > 0.05
+    });
+    10 * felt.count() >= N * N * N
 }
 
 /// Corners of the box about the faces.
@@ -174,14 +192,14 @@ impl Sums {
 const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
 
 /// `n` × `n` columns over the box `lo`, `hi`: slanted, so that faces parallel to an axis are
-/// sampled as evenly as others; but straight, and half as many, where each is costly.
+/// sampled as evenly as others; but straight, and half as many, for open meshes.
 fn columns(body: &Body, axis: usize, lo: Vec3, hi: Vec3, n: usize, run: &Run) -> Result<Columns> {
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
     if hi[u] <= lo[u] || hi[v] <= lo[v] {
         return Err(Error::ZeroVolume("the mesh is flat: its box has no volume".into()));
     }
     let (a, b) = ([lo[u], lo[v]], [hi[u], hi[v]]);
-    let lattice = if n == OPEN {
+    let lattice = if n <= OPEN {
         Lattice::straight(axis, [n, n], a, [0, 1].map(|k| (b[k] - a[k]) / n as f64))
     } else {
         Lattice::slanted(axis, n, a, b)
