@@ -57,8 +57,17 @@ impl Fields {
         places
     }
 
-    /// The maxima of E* = 2E − Ẽ (equation 25) for the clump that covers `covered`.
-    pub fn of_deficit(&mut self, target: &Target, covered: &[u64], run: &Run) -> Vec<Place> {
+    /// The places that the clump which covers `covered` leaves: the maxima of E* = 2E − Ẽ
+    /// (equation 25), and those from which the deepest uncovered cells are reached, as
+    /// deep as `part` of the deepest.
+    pub fn of_clump(
+        &mut self,
+        target: &Target,
+        covered: &[u64],
+        part: f32,
+        run: &Run,
+    ) -> Vec<Place> {
+        let stops = self.of_rest(target, covered, part, run);
         transform::distance(&target.lattice, covered, &mut self.field, run.pool());
         run.count(|c| c.transforms += 1);
         let slab = target.lattice.dims[0] * target.lattice.dims[1];
@@ -68,45 +77,50 @@ impl Fields {
                 *clump = 2.0 * e - *clump;
             }
         });
-        let found = peaks(target, &self.field, run);
         let mut places = Vec::new();
-        for cell in found {
-            let e = target.at(cell.map(i64::from));
-            if e > 0.0 && self.fresh(target, &cell) {
+        for cell in peaks(target, &self.field, run) {
+            if target.at(cell.map(i64::from)) > 0.0 && self.fresh(target, &cell) {
                 places.push(between(target, &self.field, &cell, false));
+            }
+        }
+        for cell in stops {
+            if self.fresh(target, &cell) {
+                let deep = f64::from(target.at(cell.map(i64::from)));
+                let deficit = f64::from(value(&self.field, &target.lattice, cell.map(i64::from)));
+                places.push(Place {
+                    center: center(&target.lattice, &cell),
+                    deep,
+                    covered: (2.0 * deep - deficit).max(0.0),
+                    peak: false,
+                });
             }
         }
         places
     }
 
-    /// Places from which uncovered cells are reached: from each local maximum of the distance
+    /// Cells from which uncovered ones are reached: from each local maximum of the distance
     /// transform of the uncovered solid cells uphill on E, as far as a ball there
-    /// still holds the start.
-    pub fn of_rest(&mut self, target: &Target, covered: &[u64], run: &Run) -> Vec<Place> {
+    /// still holds the start; stops on the way count as well.
+    fn of_rest(&mut self, target: &Target, covered: &[u64], part: f32, run: &Run) -> Vec<[u32; 3]> {
         for ((rest, solid), covered) in self.rest.iter_mut().zip(&target.bits).zip(covered) {
             *rest = solid & !covered;
         }
         transform::distance(&target.lattice, &self.rest, &mut self.field, run.pool());
         run.count(|c| c.transforms += 1);
-        let found = peaks(target, &self.field, run);
+        let mut found = peaks(target, &self.field, run);
+        let depth = |c: &[u32; 3]| value(&self.field, &target.lattice, c.map(i64::from));
+        // The deepest comes first.
+        let least = found.first().map_or(0.0, depth) * part;
+        found.retain(|c| depth(c) >= least);
         let paths = run.pool().map(found.len(), |n| uphill(target, found[n]));
-        let mut places = Vec::new();
+        let mut cells = Vec::new();
         for path in paths {
             let last = path.len() - 1;
             let mut stops = [0, last.div_ceil(3), (2 * last).div_ceil(3), last].to_vec();
             stops.dedup();
-            for cell in stops.into_iter().filter_map(|s| path.get(s)) {
-                if self.fresh(target, cell) {
-                    places.push(Place {
-                        center: center(&target.lattice, cell),
-                        deep: f64::from(target.at(cell.map(i64::from))),
-                        covered: 0.0,
-                        peak: false,
-                    });
-                }
-            }
+            cells.extend(stops.into_iter().filter_map(|s| path.get(s)));
         }
-        places
+        cells
     }
 
     /// Marks the block of the cell; whether it was new. Where E is great, places that lie

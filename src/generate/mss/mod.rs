@@ -10,6 +10,7 @@ mod candidates;
 mod depth;
 mod lattice;
 mod maxima;
+mod residue;
 mod select;
 mod subvoxel;
 mod symmetry;
@@ -23,6 +24,7 @@ use crate::run::Run;
 use crate::solid::Solid;
 use candidates::Fields;
 use lattice::Ball;
+use residue::Residue;
 use select::{Counts, Pool, Rules};
 use target::Target;
 
@@ -31,6 +33,9 @@ const ROUND: (usize, usize) = (2, 4);
 
 /// A round ends when the best place left gains less than this part of its first.
 const WORTH: f64 = 0.3;
+
+/// Uncovered cells count as deep from this part of the deepest on, until they run out.
+const DEEP: f32 = 0.5;
 
 /// Makes a clump by MSS.
 pub(super) fn mss(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
@@ -69,8 +74,9 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
     let mut pool = Pool::new(rules);
     let mut balls: Vec<Ball> = Vec::new();
     let places = fields.of_target(target, run);
-    pool.add(target, places);
-    let mut rested = false;
+    pool.add(target, places, &Residue::count(&target.lattice, &target.bits, &covered)?);
+    let mut part = DEEP;
+    let mut led = false;
     let stopped = 'search: loop {
         let quota = (balls.len() / ROUND.0).max(ROUND.1);
         let before = balls.len();
@@ -107,16 +113,15 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
                 }
             }
         }
-        if balls.len() == before && rested {
-            break if pool.too_small { Stopped::Radius } else { Stopped::Exhausted };
+        if balls.len() == before && led {
+            if part == 0.0 {
+                break if pool.too_small { Stopped::Radius } else { Stopped::Exhausted };
+            }
+            part = 0.0;
         }
-        if !balls.is_empty() {
-            let places = fields.of_deficit(target, &covered, run);
-            pool.add(target, places);
-        }
-        let places = fields.of_rest(target, &covered, run);
-        pool.add(target, places);
-        rested = true;
+        led = true;
+        let places = fields.of_clump(target, &covered, part, run);
+        pool.add(target, places, &Residue::count(&target.lattice, &target.bits, &covered)?);
     };
     if balls.is_empty() {
         return Err(match stopped {

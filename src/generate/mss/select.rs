@@ -4,6 +4,7 @@
 
 use super::candidates::Place;
 use super::lattice::{Ball, distance_squared};
+use super::residue::Residue;
 use super::subvoxel::along_axis;
 use super::target::Target;
 use crate::run::Run;
@@ -47,7 +48,9 @@ struct Candidate {
     tried: bool,
 }
 
-/// An entry of the heap: a candidate and a bound on its new inside cells a sphere.
+/// An entry of the heap: a candidate and its new inside cells a sphere, less what its outside
+/// cells cost, when it was last looked at; before that, a bound from its volume. Both can
+/// but fall while the clump grows (the second nearly so: outside cells may be taken by others).
 #[derive(Clone, Copy)]
 struct Entry {
     bound: f64,
@@ -109,8 +112,8 @@ impl Pool {
         Pool { rules, candidates: Vec::new(), heap: BinaryHeap::new(), too_small: false }
     }
 
-    /// Takes in places.
-    pub fn add(&mut self, target: &Target, places: Vec<Place>) {
+    /// Takes in places, and lowers the bounds of those before to the uncovered cells around them.
+    pub fn add(&mut self, target: &Target, places: Vec<Place>, residue: &Residue) {
         let step = target.lattice.step;
         let cell = step[0] * step[1] * step[2];
         for place in places {
@@ -120,6 +123,13 @@ impl Pool {
             self.heap.push(Entry { bound, index: self.candidates.len() });
             self.candidates.push(Candidate { place, orbit: Vec::new(), tried: false });
         }
+        let entries = std::mem::take(&mut self.heap).into_iter().filter_map(|mut entry| {
+            let place = &self.candidates.get(entry.index)?.place;
+            let radius = (place.deep + self.rules.offset).max(0.0);
+            entry.bound = entry.bound.min(residue.bound(&Ball { center: place.center, radius }));
+            (entry.bound > 0.0).then_some(entry)
+        });
+        self.heap = entries.collect();
     }
 
     /// The orbit that brings D down most, or none that does. `chosen` are the spheres so far.
@@ -173,7 +183,7 @@ impl Pool {
                             c.orbit = orbit;
                             c.tried = true;
                         }
-                        looked.push(Entry { bound: gain.0, index });
+                        looked.push(Entry { bound: s.max(0.0) / (1.0 + mismatch), index });
                     }
                 }
             }

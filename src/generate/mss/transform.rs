@@ -72,10 +72,20 @@ fn along_x(row: &mut [f32], words: &[u64], step: f64) {
 struct Columns {
     step2: f64,
     block: Vec<f32>,
-    line: Vec<f64>,
-    site: Vec<f64>,
-    height: Vec<f64>,
-    from: Vec<f64>,
+    envelope: Vec<Parabola>,
+    /// 1 / 2d for every distance d of two cells of a run.
+    halves: Vec<f64>,
+}
+
+/// A piece of the lower envelope.
+#[derive(Clone, Copy, Default)]
+struct Parabola {
+    site: f64,
+    height: f64,
+    /// Height at position 0.
+    base: f64,
+    /// Where the piece begins.
+    from: f64,
 }
 
 impl Columns {
@@ -83,10 +93,8 @@ impl Columns {
         Columns {
             step2: step * step,
             block: vec![0.0; n * BLOCK],
-            line: vec![0.0; n],
-            site: vec![0.0; n + 2],
-            height: vec![0.0; n + 2],
-            from: vec![0.0; n + 2],
+            envelope: vec![Parabola::default(); n + 2],
+            halves: (0..n + 2).map(|d| if d > 0 { 0.5 / d as f64 } else { 0.0 }).collect(),
         }
     }
 
@@ -144,41 +152,43 @@ impl Columns {
             }
             return;
         }
-        for t in 0..m {
-            self.line[t] = f64::from(self.block[base + t]) / s2;
-        }
+        let (Some(values), Some(envelope)) =
+            (self.block.get_mut(base..base + m), self.envelope.get_mut(..m + 2))
+        else {
+            return;
+        };
+        let scale = 1.0 / s2;
         let mut top = 0;
-        self.site[0] = 0.0;
-        self.height[0] = 0.0;
-        self.from[0] = 0.0;
+        envelope[0] = Parabola::default();
         for q in 1..=m + 1 {
-            let f = if q <= m { self.line[q - 1] } else { 0.0 };
-            let q = q as f64;
-            let key = f + q * q;
-            loop {
-                let v = self.site[top];
-                let cross = (key - self.height[top] - v * v) / (2.0 * (q - v));
-                if top > 0 && cross <= self.from[top] {
-                    top -= 1;
-                    continue;
-                }
-                top += 1;
-                self.site[top] = q;
-                self.height[top] = f;
-                self.from[top] = cross;
-                break;
+            let height = values.get(q - 1).map_or(0.0, |v| f64::from(*v) * scale);
+            let site = q as f64;
+            let base = height + site * site;
+            let mut from =
+                self.halves[q - envelope[top].site as usize] * (base - envelope[top].base);
+            while top > 0 && from <= envelope[top].from {
+                top -= 1;
+                let last = &envelope[top];
+                from = self.halves[q - last.site as usize] * (base - last.base);
             }
+            top += 1;
+            envelope[top] = Parabola { site, height, base, from };
         }
-        let mut at = 0;
-        for t in 0..m {
+        let mut pieces = envelope[..=top].iter();
+        let mut piece = pieces.next().copied().unwrap_or_default();
+        let mut next = pieces.next().copied().unwrap_or_default();
+        for (t, value) in values.iter_mut().enumerate() {
             let p = (t + 1) as f64;
-            while at < top && self.from[at + 1] < p {
-                at += 1;
+            while next.from < p {
+                piece = next;
+                match pieces.next() {
+                    Some(n) => next = *n,
+                    None => next.from = f64::MAX,
+                }
             }
-            let d = p - self.site[at];
-            // Parabolas of cells carry their squared distance as it was, so that
-            // sums of squares of whole numbers stay exact.
-            self.block[base + t] = ((self.height[at] + d * d) * s2) as f32;
+            let d = p - piece.site;
+            // Sums of squares of whole numbers stay exact.
+            *value = ((piece.height + d * d) * s2) as f32;
         }
     }
 }
