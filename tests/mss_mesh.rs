@@ -1,0 +1,142 @@
+//! MSS on meshes: no bias, confinement, equivariance.
+
+#![allow(clippy::unwrap_used)]
+
+use morula::generate::{GenerateOptions, generate};
+use morula::math::Vec3;
+use morula::shape::{ImportOptions, Primitive};
+use morula::solid::{Resolution, SolidOptions};
+use morula::{Clump, Run, Shape, Solid, Sphere};
+
+type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+
+fn solid(mesh: &Triangles, cells: u32) -> Solid {
+    let run = Run::serial();
+    let shape = Shape::from_mesh(&mesh.0, &mesh.1, &ImportOptions::default(), &run).unwrap();
+    let resolution = Resolution::CellsLongest(cells);
+    Solid::new(&shape, &SolidOptions { resolution, ..SolidOptions::default() }, &run).unwrap()
+}
+
+fn make(solid: &Solid, spheres: usize, confine: bool, radius_offset: f64) -> Clump {
+    let options = GenerateOptions { spheres, confine, radius_offset, ..GenerateOptions::default() };
+    generate(solid, &options, &Run::serial()).unwrap()
+}
+
+/// Distance from a point to a triangle, by the regions of its plane.
+fn to_triangle(p: &Vec3, t: [Vec3; 3]) -> f64 {
+    let edge = |a: Vec3, b: Vec3| {
+        let s = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
+        (p - a - (b - a) * s).norm()
+    };
+    let [a, b, c] = t;
+    let n = (b - a).cross(&(c - a));
+    let q = p - n * ((p - a).dot(&n) / n.norm_squared());
+    let within =
+        [(a, b), (b, c), (c, a)].iter().all(|(u, v)| (v - u).cross(&(q - u)).dot(&n) >= 0.0);
+    if within { (p - q).norm() } else { edge(a, b).min(edge(b, c)).min(edge(c, a)) }
+}
+
+fn depth(mesh: &Triangles, p: &Vec3) -> f64 {
+    let corner = |i: u32| Vec3::from(mesh.0[i as usize]);
+    mesh.1.iter().map(|f| to_triangle(p, f.map(corner))).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_sphere_is_one_sphere_without_bias() {
+    for (cells, shift) in [(24, [0.0; 3]), (41, [0.013, -0.007, 0.021]), (64, [5.0, 0.1, -0.3])] {
+        let mut mesh = Primitive::Sphere { radius: 1.0 }.mesh(96).unwrap();
+        for v in &mut mesh.0 {
+            for (x, s) in v.iter_mut().zip(shift) {
+                *x += s;
+            }
+        }
+        let s = make(&solid(&mesh, cells), 1, false, 0.0).spheres[0];
+        let cell = 2.0 / f64::from(cells);
+        assert!((s.radius - 1.0).abs() < 0.1 * cell, "{cells}: radius {}", s.radius);
+        let off = (s.center - Vec3::from(shift)).norm();
+        assert!(off < 0.1 * cell, "{cells}: centre {off} off");
+    }
+}
+
+#[test]
+fn two_spheres_off_the_grid_are_found_without_bias() {
+    // Unequal parts, so that neither centre lies on a cell or a mirror plane.
+    let ball = Primitive::Sphere { radius: 1.0 }.mesh(64).unwrap();
+    let mut mesh = ball.clone();
+    let n = mesh.0.len() as u32;
+    let (c, r) = (Vec3::new(1.713, 0.222, -0.131), 0.41);
+    mesh.0.extend(ball.0.iter().map(|v| <[f64; 3]>::from(Vec3::from(*v) * r + c)));
+    mesh.1.extend(ball.1.iter().map(|f| f.map(|i| i + n)));
+    let run = Run::serial();
+    let options = ImportOptions { bodies: morula::shape::Bodies::All, ..ImportOptions::default() };
+    let shape = Shape::from_mesh(&mesh.0, &mesh.1, &options, &run).unwrap();
+    let solid = Solid::new(&shape, &SolidOptions::default(), &run).unwrap();
+    let clump = make(&solid, 2, false, 0.0);
+    let cell = 3.2 / 64.0;
+    for (center, radius) in [(Vec3::zeros(), 1.0), (c, r)] {
+        let near = |s: &&Sphere| (s.center - center).norm() < 0.25 * cell;
+        let s = clump.spheres.iter().find(near).unwrap();
+        assert!((s.radius - radius).abs() < 0.25 * cell, "{s:?}");
+    }
+}
+
+#[test]
+fn confined_spheres_stay_within_the_triangles() {
+    let shapes = [
+        Primitive::Stone { seed: 5, diameter: 1.0, roughness: 0.5 },
+        Primitive::Box { edges: [1.0, 0.7, 0.4] },
+        Primitive::Cone { radius: 0.5, height: 1.1 },
+    ];
+    for p in shapes {
+        let mesh = p.mesh(12).unwrap();
+        let solid = solid(&mesh, 32);
+        for offset in [0.0, 1.5] {
+            let clump = make(&solid, 40, true, offset);
+            assert!(clump.spheres.len() == 40 || !clump.note.is_empty());
+            for s in &clump.spheres {
+                let d = depth(&mesh, &s.center);
+                assert!(s.radius <= d + 1e-12, "{}: {} and {d}", p.name(), s.radius);
+                let unit = solid.frame().to_unit(&s.center);
+                assert!(solid.surface().contains(&unit));
+            }
+        }
+    }
+}
+
+#[test]
+fn powers_of_two_and_exact_shifts_give_the_same_clump() {
+    let mesh = Primitive::Stone { seed: 3, diameter: 1.0, roughness: 0.3 }.mesh(10).unwrap();
+    // Coordinates in multiples of 2⁻²⁰, so that shifts are exact.
+    let round = |x: f64| (x * 1048576.0).round() / 1048576.0;
+    let base: Triangles = (mesh.0.iter().map(|v| v.map(round)).collect(), mesh.1.clone());
+    let first = make(&solid(&base, 32), 25, false, 0.0).spheres;
+    for (scale, shift) in [(1024.0, 0.0), (2f64.powi(-30), 0.0), (1.0, 4096.0)] {
+        let moved: Triangles =
+            (base.0.iter().map(|v| v.map(|x| x * scale + shift)).collect(), base.1.clone());
+        let made = make(&solid(&moved, 32), 25, false, 0.0).spheres;
+        assert_eq!(made.len(), first.len());
+        for (a, b) in made.iter().zip(&first) {
+            let back = (a.center - Vec3::repeat(shift)) / scale;
+            let slack = f64::EPSILON * (1.0 + shift / scale);
+            assert!((back - b.center).norm() <= 4.0 * slack, "{back} and {}", b.center);
+            assert_eq!(a.radius / scale, b.radius);
+        }
+    }
+}
+
+#[test]
+fn a_mirror_symmetric_mesh_has_a_mirror_symmetric_clump() {
+    let mesh = Primitive::Torus { major: 1.0, minor: 0.4 }.mesh(48).unwrap();
+    let spheres = make(&solid(&mesh, 48), 40, false, 0.0).spheres;
+    let symmetric = |part: &[Sphere]| {
+        (0..3).all(|a| {
+            part.iter().all(|s| {
+                let mut image = s.center;
+                image[a] = -image[a];
+                part.iter()
+                    .any(|t| (t.center - image).norm() < 1e-9 && (t.radius - s.radius).abs() < 1e-6)
+            })
+        })
+    };
+    assert!((33..=40).any(|n| n <= spheres.len() && symmetric(&spheres[..n])));
+}
