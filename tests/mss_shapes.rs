@@ -137,7 +137,7 @@ fn a_cube_does_not_stall() {
 }
 
 #[test]
-fn the_first_spheres_do_not_depend_on_the_number_and_d_falls() {
+fn d_falls_with_every_sphere() {
     let dims = [64, 44, 36];
     let inside = |p: [f64; 3]| {
         let q = [(p[0] - 31.3) / 28.0, (p[1] - 21.1) / 18.0, (p[2] - 17.6) / 14.0];
@@ -148,11 +148,13 @@ fn the_first_spheres_do_not_depend_on_the_number_and_d_falls() {
     assert_eq!(many.len(), 25);
     let mut last = 1.0;
     for n in 1..=25 {
-        let d = mismatch(&mask, dims, [1.0; 3], &many[..n]);
+        let spheres = make(&solid, &ask(n)).spheres;
+        let d = mismatch(&mask, dims, [1.0; 3], &spheres);
         assert!(d < last, "D is {d} with {n} spheres and {last} with one less");
         last = d;
-        if n % 6 == 0 {
-            assert_eq!(make(&solid, &ask(n)).spheres, many[..n]);
+        // The first ten settle among themselves; those after stay where they are.
+        if n > 10 {
+            assert_eq!(spheres, many[..n]);
         }
     }
 }

@@ -12,6 +12,7 @@ mod lattice;
 mod maxima;
 mod residue;
 mod select;
+mod settle;
 mod subvoxel;
 mod symmetry;
 mod target;
@@ -26,6 +27,7 @@ use candidates::Fields;
 use lattice::Ball;
 use residue::Residue;
 use select::{Counts, Pool, Rules};
+use settle::{SETTLING, settle};
 use target::Target;
 
 /// Spheres of a round, as a part of those before it, and at least.
@@ -73,6 +75,7 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
     let mut counts = Counts { target: target.cells, ..Counts::default() };
     let mut pool = Pool::new(rules);
     let mut balls: Vec<Ball> = Vec::new();
+    let mut orbits: Vec<Vec<Ball>> = Vec::new();
     let places = fields.of_target(target, run);
     pool.add(target, places, &Residue::count(&target.lattice, &target.bits, &covered)?);
     let mut part = DEEP;
@@ -96,6 +99,9 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
                 pool.put_back(choice);
                 break;
             }
+            let mut added = Vec::new();
+            let mut reached = None;
+            let whole = choice.orbit.len();
             for ball in choice.orbit {
                 let gain = target.lattice.gain(&ball, &target.bits, &covered);
                 let next = counts.with(gain);
@@ -105,12 +111,29 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
                 target.lattice.cover(&ball, &target.bits, &mut covered);
                 counts = next;
                 balls.push(ball);
+                added.push(ball);
                 if aim > 0.0 && counts.mismatch() <= aim {
-                    break 'search Stopped::Mismatch;
+                    reached = Some(Stopped::Mismatch);
+                } else if balls.len() >= limit {
+                    reached = Some(Stopped::Spheres);
                 }
-                if balls.len() >= limit {
-                    break 'search Stopped::Spheres;
+                if reached.is_some() {
+                    break;
                 }
+            }
+            let settles = added.len() == whole && balls.len() <= SETTLING;
+            if !added.is_empty() {
+                orbits.push(added);
+            }
+            if settles && orbits.len() > 1 && reached != Some(Stopped::Mismatch) {
+                settle(&pool, target, &mut orbits, &mut covered, &mut counts);
+                balls = orbits.concat();
+                if aim > 0.0 && counts.mismatch() <= aim {
+                    reached = Some(Stopped::Mismatch);
+                }
+            }
+            if let Some(reason) = reached {
+                break 'search reason;
             }
         }
         if balls.len() == before && led {

@@ -211,6 +211,23 @@ impl Pool {
         Some(choice)
     }
 
+    /// The orbit about a point and its new cells a sphere, when the rules allow it.
+    pub fn trial(
+        &self,
+        target: &Target,
+        covered: &[u64],
+        others: &[Ball],
+        center: &[f64; 3],
+    ) -> Option<(Vec<Ball>, (f64, f64))> {
+        if !target.solid_at(center) {
+            return None;
+        }
+        match self.consider(target, covered, others, center) {
+            Look::Good { orbit, gain } => Some((orbit, gain)),
+            _ => None,
+        }
+    }
+
     /// Leaves a choice for later.
     pub fn put_back(&mut self, choice: Choice) {
         self.heap.push(choice.entry);

@@ -1,0 +1,102 @@
+//! The first few spheres settle: after each addition, each moves to where D is
+//! least with the others as they are. A place that was best for the first two
+//! spheres is poor once there are five (on an ellipsoid the mismatch of five
+//! spheres falls by half); with more, the next spheres make up for it.
+
+use super::lattice::{Ball, Lattice};
+use super::select::{Counts, Pool};
+use super::target::Target;
+
+/// Up to this many spheres settle.
+pub(super) const SETTLING: usize = 10;
+
+/// First step of a move, as a part of the radius.
+const STRIDE: f64 = 0.25;
+
+/// Moves each orbit in turn; `covered` and `counts` follow. D never rises.
+pub(super) fn settle(
+    pool: &Pool,
+    target: &Target,
+    orbits: &mut [Vec<Ball>],
+    covered: &mut [u64],
+    counts: &mut Counts,
+) {
+    for n in 0..orbits.len() {
+        covered.fill(0);
+        let mut rest = Counts { target: target.cells, ..Counts::default() };
+        let mut others = Vec::new();
+        for (m, orbit) in orbits.iter().enumerate() {
+            if m != n {
+                rest = rest.with(cover(&target.lattice, orbit, target, covered));
+                others.extend(orbit.iter().copied());
+            }
+        }
+        let Some(orbit) = orbits.get_mut(n) else { continue };
+        if let Some(moved) = moved(pool, target, orbit, covered, &rest, &others) {
+            let mut trial = covered.to_vec();
+            let next = rest.with(cover(&target.lattice, &moved, target, &mut trial));
+            if next.mismatch() < counts.mismatch() {
+                *counts = next;
+                *orbit = moved;
+                covered.copy_from_slice(&trial);
+                continue;
+            }
+        }
+        cover(&target.lattice, orbit, target, covered);
+    }
+}
+
+fn cover(lattice: &Lattice, orbit: &[Ball], target: &Target, covered: &mut [u64]) -> (u64, u64) {
+    orbit.iter().fold((0, 0), |sum, ball| {
+        let gain = lattice.cover(ball, &target.bits, covered);
+        (sum.0 + gain.0, sum.1 + gain.1)
+    })
+}
+
+/// The orbit where a search along the axes finds the least D; `None` when it stays.
+fn moved(
+    pool: &Pool,
+    target: &Target,
+    orbit: &[Ball],
+    covered: &[u64],
+    rest: &Counts,
+    others: &[Ball],
+) -> Option<Vec<Ball>> {
+    let start = *orbit.first()?;
+    let size = orbit.len() as f64;
+    let try_at = |center: &[f64; 3]| {
+        let (orbit, gain) = pool.trial(target, covered, others, center)?;
+        (orbit.len() as f64 == size).then(|| {
+            let inside = rest.inside as f64 + size * gain.0;
+            let all = rest.target as f64 + rest.outside as f64 + inside + size * gain.1;
+            (orbit, 1.0 - 2.0 * inside / all)
+        })
+    };
+    let (_, mut least) = try_at(&start.center)?;
+    let mut here = start.center;
+    let mut best = None;
+    let mut stride = (start.radius * STRIDE).max(1.0);
+    while stride >= 0.5 {
+        let mut found = None;
+        for axis in 0..3 {
+            for sign in [-1.0, 1.0] {
+                let mut p = here;
+                p[axis] += sign * stride;
+                if let Some((orbit, d)) = try_at(&p)
+                    && d < least
+                {
+                    least = d;
+                    found = Some(orbit);
+                }
+            }
+        }
+        match found {
+            Some(orbit) => {
+                here = orbit.first()?.center;
+                best = Some(orbit);
+            }
+            None => stride *= 0.5,
+        }
+    }
+    best
+}
