@@ -1,13 +1,16 @@
 //! What a solid costs: the inside test and the distance field of a mesh of about
-//! 50 000 triangles at 128 cells, beside their bounds in CPU time.
+//! 50 000 triangles at 128 cells, and the distance transform of 3 million cells, beside
+//! their bounds in CPU time.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use morula::math::Vec3;
+use morula::run::Pool;
 use morula::shape::read::FileOptions;
 use morula::shape::{Body, ImportOptions, Primitive};
-use morula::solid::{Grid, coverage, moments};
+use morula::solid::edt::{Scratch, squared_distance_into};
+use morula::solid::{Grid, Resolution, Solid, SolidOptions, coverage, moments};
 use morula::{Run, Shape};
 use std::time::{Duration, Instant};
 
@@ -79,5 +82,52 @@ fn inside(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, inside);
+/// The distance field, without the solid that it is made for.
+fn distance(c: &mut Criterion) {
+    let run = Run::serial();
+    let mut group = c.benchmark_group("distance field");
+    group.sample_size(10).measurement_time(Duration::from_secs(1));
+    group.warm_up_time(Duration::from_millis(200));
+    let resolution = Resolution::CellsLongest(CELLS as u32);
+    let options = SolidOptions { resolution, padding: PADDING, ..SolidOptions::default() };
+    for (name, shape) in shapes() {
+        let make = || Solid::new(&shape, &options, &run).unwrap();
+        let (mut ms, since) = (0.0, Instant::now());
+        for _ in 0..5 {
+            let solid = make();
+            let start = cpu(since);
+            drop(solid.distance(&run).unwrap().to_vec());
+            ms += (cpu(since) - start) / 5.0;
+        }
+        let (faces, cells) = (shape.report.faces, make().grid().len());
+        println!("{name}: {faces} faces, {cells} cells: distance field {ms:.1} ms (bound 250)");
+        group.bench_function(&name, |b| {
+            b.iter_batched_ref(make, |s| s.distance(&run).unwrap().len(), BatchSize::PerIteration);
+        });
+    }
+    group.finish();
+}
+
+/// The distance transform of 3 million cells, half of them solid.
+fn transform(c: &mut Criterion) {
+    let n = 145;
+    let mask: Vec<u8> = (0..n * n * n)
+        .map(|i: usize| {
+            let c = [i % n, i / n % n, i / n / n].map(|c| (c as f64 - 72.0).powi(2));
+            u8::from(c.iter().sum::<f64>() < 71.0 * 71.0)
+        })
+        .collect();
+    let (pool, mut out, mut scratch) = (Pool::serial(), Vec::new(), Scratch::default());
+    let mut go = || {
+        squared_distance_into(&mask, [n; 3], [1.0; 3], &pool, &mut out, &mut scratch).unwrap();
+    };
+    println!("distance transform of {} cells: {:.1} ms (bound 60)", n * n * n, mean(&mut go));
+    let mut group = c.benchmark_group("distance transform");
+    group.sample_size(10).measurement_time(Duration::from_secs(1));
+    group.warm_up_time(Duration::from_millis(200));
+    group.bench_function("ball", |b| b.iter(&mut go));
+    group.finish();
+}
+
+criterion_group!(benches, inside, distance, transform);
 criterion_main!(benches);

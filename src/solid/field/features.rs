@@ -115,7 +115,8 @@ pub(super) struct Edge {
     start: [f32; 3],
     along: [f32; 3],
     length: f32,
-    beyond: [Plane; 2],
+    /// Beyond the sides of two faces, and what follows from both: in front of the edge.
+    beyond: [Plane; 3],
 }
 
 impl Feature for Edge {
@@ -123,14 +124,15 @@ impl Feature for Edge {
     fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes) {
         let (mut touch, mut score) = ([0.0; LANES], [0.0; LANES]);
         let (s, e) = (&self.start, &self.along);
-        let [a, b] = &self.beyond;
-        let reach = [reach(a, half), reach(b, half), reach(e, half)];
+        let [a, b, c] = &self.beyond;
+        let reach = [reach(a, half), reach(b, half), reach(c, half), reach(e, half)];
         for k in 0..LANES {
             let (dx, dy, dz) = (x[0][k] - s[0], x[1][k] - s[1], x[2][k] - s[2]);
             let t = dx * e[0] + dy * e[1] + dz * e[2];
             let within = least(t, self.length - t);
-            let (ha, hb) = (height(a, x, k), height(b, x, k));
-            touch[k] = least(least(ha + reach[0], hb + reach[1]), within + reach[2]);
+            let (ha, hb, hc) = (height(a, x, k), height(b, x, k), height(c, x, k));
+            let beyond = least(least(ha + reach[0], hb + reach[1]), hc + reach[2]);
+            touch[k] = least(beyond, within + reach[3]);
             let (rx, ry, rz) = (dx - t * e[0], dy - t * e[1], dz - t * e[2]);
             let out = least(within, 0.0);
             score[k] = (rx * rx + ry * ry + rz * rz) + out * out;
@@ -249,17 +251,18 @@ pub(super) fn bytes(faces: usize) -> u64 {
     let per = size_of::<Face>()
         + size_of::<[Vec3; 3]>()
         + 3 * size_of::<Side>()
+        + 3 * size_of::<Vec3>()
         + 2 * size_of::<Edge>()
         + size_of::<Corner>()
         + 6 * 8;
     per as u64 * faces as u64
 }
 
-/// A side of a face: its ends in order, and the half-space away from the face.
+/// A side of a face: its ends in order, and the unit vector in the face away from it, or none.
 #[derive(Debug, Clone, Copy)]
 struct Side {
     ends: [u32; 2],
-    away: Plane,
+    away: Option<Vec3>,
 }
 
 impl Features {
@@ -291,10 +294,13 @@ impl Features {
             let length = (b - a).norm();
             // A length of none is a corner.
             if length > 1e-9 {
-                let beyond = [group[0].away, group.get(1).map_or(ALL, |s| s.away)];
-                let along = single(&((b - a) / length));
-                edges.push(Edge { start: single(&a), along, length: length as f32, beyond });
+                let along = (b - a) / length;
                 ends.push((group[0].ends, along));
+                let sides = [group[0].away, group.get(1).and_then(|s| s.away)];
+                if let Some(beyond) = beyond(&sides, &a) {
+                    let (start, along) = (single(&a), single(&along));
+                    edges.push(Edge { start, along, length: length as f32, beyond });
+                }
             }
         }
         let corners = corners(mesh, &ends, local)?;
@@ -319,6 +325,22 @@ impl Features {
     }
 }
 
+/// The half-spaces away from two faces at an edge through `v`, and the one between them, which
+/// holds what they both hold. None when the faces are flat there: their prisms meet.
+fn beyond(sides: &[Option<Vec3>; 2], v: &Vec3) -> Option<[Plane; 3]> {
+    let one = |n: &Option<Vec3>| n.as_ref().map_or(ALL, |n| plane(n, v));
+    let mut front = ALL;
+    if let [Some(a), Some(b)] = sides {
+        let sum = a + b;
+        let length = sum.norm();
+        if length < 1e-6 {
+            return None;
+        }
+        front = plane(&(sum / length), v);
+    }
+    Some([one(&sides[0]), one(&sides[1]), front])
+}
+
 pub(super) fn single(v: &Vec3) -> [f32; 3] {
     [v.x as f32, v.y as f32, v.z as f32]
 }
@@ -332,27 +354,26 @@ fn plane(n: &Vec3, v: &Vec3) -> Plane {
     [n.x as f32, n.y as f32, n.z as f32, -n.dot(v) as f32]
 }
 
-/// A face and the half-spaces away from its sides. One without area has no prism (its edges
+/// A face and the unit vectors away from its sides. One without area has no prism (its edges
 /// stand for it) and no sides.
-fn face(t: &[Vec3; 3]) -> (Face, [Plane; 3]) {
+fn face(t: &[Vec3; 3]) -> (Face, [Option<Vec3>; 3]) {
     let edges = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let longest2 = edges.iter().map(|e| e.norm_squared()).fold(0.0, f64::max);
     let cross = edges[0].cross(&edges[1]);
     const NONE: Plane = [0.0, 0.0, 0.0, -FAR];
     if longest2 < 1e-200 || cross.norm_squared() <= 1e-24 * longest2 * longest2 {
-        return (Face { plane: NONE, sides: [NONE; 3] }, [ALL; 3]);
+        return (Face { plane: NONE, sides: [NONE; 3] }, [None; 3]);
     }
     let n = cross.normalize();
     let inward: [Vec3; 3] = std::array::from_fn(|k| n.cross(&edges[k]).normalize());
     let sides = std::array::from_fn(|k| plane(&inward[k], &t[k]));
-    let away = std::array::from_fn(|k| plane(&-inward[k], &t[k]));
-    (Face { plane: plane(&n, &t[0]), sides }, away)
+    (Face { plane: plane(&n, &t[0]), sides }, inward.map(|m| Some(-m)))
 }
 
 /// The corners, each with some of the edges that meet there.
 fn corners(
     mesh: &Mesh,
-    ends: &[([u32; 2], [f32; 3])],
+    ends: &[([u32; 2], Vec3)],
     local: impl Fn(&Vec3) -> Vec3,
 ) -> Result<Vec<Corner>> {
     const WHAT: &str = "the corners of the mesh";
@@ -368,9 +389,9 @@ fn corners(
     }
     let mut next = filled(WHAT, mesh.vertices.len(), 0u32)?;
     next.copy_from_slice(&starts[..mesh.vertices.len()]);
-    let mut list = filled(WHAT, 2 * ends.len(), [0f32; 3])?;
+    let mut list = filled(WHAT, 2 * ends.len(), Vec3::zeros())?;
     for ([a, b], along) in ends {
-        for (v, direction) in [(a, *along), (b, along.map(|c| -c))] {
+        for (v, direction) in [(a, *along), (b, -along)] {
             list[next[*v as usize] as usize] = direction;
             next[*v as usize] += 1;
         }
@@ -380,9 +401,14 @@ fn corners(
         let edges = &list[range[0] as usize..range[1] as usize];
         if let Some(first) = edges.first() {
             // Evenly among them, in the order of the other ends.
-            let away = std::array::from_fn(|k| {
-                *edges.get(k * edges.len() / AWAY.min(edges.len())).unwrap_or(first)
+            let mut away: [[f32; 3]; AWAY] = std::array::from_fn(|k| {
+                single(edges.get(k * edges.len() / (AWAY - 1).min(edges.len())).unwrap_or(first))
             });
+            // And what follows from all: behind along their sum.
+            let sum = edges.iter().fold(Vec3::zeros(), |s, e| s + e);
+            if sum.norm() > 1e-6 {
+                away[AWAY - 1] = single(&sum.normalize());
+            }
             corners.push(Corner { at: single(&local(&mesh.vertices[v])), away });
         }
     }
