@@ -1,5 +1,5 @@
 //! The C ABI: the only room with `unsafe`. One file per noun of the header;
-//! every function passes through [`guard`], which catches panics and keeps the
+//! every function passes through `guard`, which catches panics and keeps the
 //! thread's error message.
 //!
 //! The doc comments here are the manual of `include/morula.h`, which is

@@ -50,10 +50,10 @@ unsafe fn cells<'a, T>(pointer: *const T, dims: [usize; 3], name: &str) -> Resul
 
 /// Makes a shape from a mask of voxels: those that are not 0 are solid.
 ///
-/// Parameters: `mask` holds dims[0] dims[1] dims[2] bytes with x fastest: the
-/// cell (i, j, k) is mask[i + dims[0] (j + dims[1] k)] and covers origin +
-/// [i, i+1] x [j, j+1] x [k, k+1] times spacing. `dims` holds the numbers of
-/// cells along x, y, z; `spacing` the edge lengths of a cell (NULL: 1, 1, 1);
+/// Parameters: `dims` holds the numbers of cells nx, ny, nz along x, y, z and
+/// `mask` a byte for each, x fastest: the cell (i, j, k) is element
+/// i + nx (j + ny k) and covers origin + (i, j, k) times spacing up to
+/// origin + (i+1, j+1, k+1) times spacing; `spacing` the edge lengths of a cell (NULL: 1, 1, 1);
 /// `origin` the lower corner of the first cell (NULL: 0, 0, 0). No empty border
 /// is needed. `options` may be NULL for the defaults.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (spacing or an

@@ -2,7 +2,7 @@
 //! inside of meshes that are open, cross themselves or are soups.
 //!
 //! Faces are sorted along a Morton curve and gathered in a binary tree. A node
-//! that is far away (farther than [`BETA`] times its radius) answers by its
+//! that is far away (farther than `BETA` times its radius) answers by its
 //! expansion about its centre p̃, with y = x − p̃ and d = p̃ − q:
 //! N·d/|d|³ − 3 dᵀMd/|d|⁵ + 15 S:ddd/|d|⁷, where N = ∫n dA, M = ∫n⊗y dA and
 //! S = ½∫n⊗y⊗y dA, symmetric and without traces (these give no field, for 1/|d|

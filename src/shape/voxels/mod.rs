@@ -1,5 +1,5 @@
 //! Voxels from arrays: masks, grey volumes, labels. Every way in ends in
-//! [`mask::build`], which finds the bodies, crops and reports.
+//! `mask::build`, which finds the bodies, crops and reports.
 
 mod bodies;
 mod grey;
