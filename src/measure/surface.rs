@@ -115,7 +115,7 @@ pub(super) fn surface(
 
     let beyond = protrusion(target, union, run)?;
     let start = from_clump.greatest.max(beyond.value);
-    let out = clump_to_target(target, union, start, run)?;
+    let out = clump_to_target(target, union, &exposed, start, run)?;
     let start = from_target.greatest.max(out.value);
     let back = if whole && triangles <= ROOTS {
         target_to_clump(body, triangles, union, start, run)?
@@ -305,7 +305,13 @@ pub(super) fn protrusion(target: &impl Target, union: &Union, run: &Run) -> Resu
 }
 
 /// The greatest distance of an exposed point from the target's surface.
-fn clump_to_target(target: &impl Target, union: &Union, start: f64, run: &Run) -> Result<Greatest> {
+fn clump_to_target(
+    target: &impl Target,
+    union: &Union,
+    exposed: &[bool],
+    start: f64,
+    run: &Run,
+) -> Result<Greatest> {
     // Clefts between spheres are where the clump falls short of the target: look there first.
     let arcs: Vec<_> = union.arcs.iter().flatten().collect();
     let clefts = run.pool().map(arcs.len().min(4096).div_ceil(CHUNK), |c| {
@@ -315,19 +321,18 @@ fn clump_to_target(target: &impl Target, union: &Union, start: f64, run: &Run) -
             .fold(0.0, f64::max)
     });
     let start = clefts.into_iter().fold(start, f64::max);
-    let roots = (0..union.spheres.len() as u32).map(Piece::Ball).collect();
+    let seen = |i: &u32| exposed.get(*i as usize).is_some_and(|e| *e);
+    let roots: Vec<_> = (0..union.spheres.len() as u32).filter(seen).map(Piece::Ball).collect();
+    let most = PIECES + 20 * roots.len() as u64;
     greatest(
         roots,
         start,
         [TOLERANCE, SHARE],
-        PIECES,
+        most,
         run,
         |piece| match *piece {
             Piece::Ball(i) => {
                 let s = &union.spheres[i as usize];
-                if union.swallowed[i as usize] {
-                    return Range { attained: -1.0, bound: -1.0 };
-                }
                 let near = target.nearest(&s.center);
                 Range { attained: -1.0, bound: s.radius + near.distance }
             }

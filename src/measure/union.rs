@@ -4,6 +4,8 @@
 use crate::error::{Result, filled, reserve};
 use crate::math::{Sphere, Vec3};
 use crate::run::Pool;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::f64::consts::{PI, TAU};
 
 /// Spheres worked on together.
@@ -206,17 +208,25 @@ impl<'a> Union<'a> {
         if outside {
             return best;
         }
+        // The nearest sphere surfaces first: the search ends at the first that is no nearer than
+        // what was found. Distances are not negative, so their bits sort as they do.
+        let away = |i: usize| {
+            let s = &self.spheres[i];
+            ((p - s.center).norm() - s.radius).abs()
+        };
+        let mut next: BinaryHeap<_> = (0..self.spheres.len())
+            .filter(|&i| !self.swallowed[i])
+            .map(|i| Reverse((away(i).to_bits(), i)))
+            .collect();
         best = (*p, f64::MAX);
-        for (i, s) in self.spheres.iter().enumerate() {
-            if self.swallowed[i] {
-                continue;
+        while let Some(Reverse((bits, i))) = next.pop() {
+            let e = f64::from_bits(bits);
+            if e >= best.1 {
+                break;
             }
+            let s = &self.spheres[i];
             let w = p - s.center;
             let length = w.norm();
-            let e = (length - s.radius).abs();
-            if e >= best.1 {
-                continue;
-            }
             let d = if length > 0.0 { w / length } else { Vec3::x() };
             if self.exposed(i, &d) {
                 best = (s.center + d * s.radius, e);
