@@ -1168,7 +1168,9 @@ contains
     integer(c_int32_t), intent(out), optional :: status
     type(morula_clump_options) :: options
     call self%destroy()
-    call with_planes(clump_options, plane_tolerances, options)
+    call morula_init(options)
+    if (present(clump_options)) options = clump_options
+    if (present(plane_tolerances)) call set_planes(options, plane_tolerances)
     call finish(morula_clump_from_shape(shape%handle, solid_options, options, self%handle), status)
   end subroutine clump_from_shape
 
@@ -1180,21 +1182,18 @@ contains
     integer(c_int32_t), intent(out), optional :: status
     type(morula_clump_options) :: options
     call self%destroy()
-    call with_planes(clump_options, plane_tolerances, options)
+    call morula_init(options)
+    if (present(clump_options)) options = clump_options
+    if (present(plane_tolerances)) call set_planes(options, plane_tolerances)
     call finish(morula_clump_from_solid(solid%handle, options, self%handle), status)
   end subroutine clump_from_solid
 
-  subroutine with_planes(given, planes, options)
-    type(morula_clump_options), intent(in), optional :: given
-    real(c_double), intent(in), contiguous, target, optional :: planes(:)
-    type(morula_clump_options), intent(out) :: options
-    call morula_init(options)
-    if (present(given)) options = given
-    if (present(planes)) then
-      if (size(planes) > 0) options%plane_tolerances = c_loc(planes)
-      options%plane_tolerance_count = size(planes, kind=c_size_t)
-    end if
-  end subroutine with_planes
+  subroutine set_planes(options, planes)
+    type(morula_clump_options), intent(inout) :: options
+    real(c_double), intent(in), contiguous, target :: planes(:)
+    if (size(planes) > 0) options%plane_tolerances = c_loc(planes)
+    options%plane_tolerance_count = size(planes, kind=c_size_t)
+  end subroutine set_planes
 
   subroutine clump_sphere_count(self, count, status)
     class(morula_clump_t), intent(in) :: self

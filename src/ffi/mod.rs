@@ -9,6 +9,8 @@
 #![allow(non_camel_case_types)]
 // Every pointer's contract is in the text of the function and in the header's introduction.
 #![allow(clippy::missing_safety_doc)]
+// In the texts [0] is an element of a C array, not a link.
+#![allow(rustdoc::broken_intra_doc_links)]
 // A C function has no builder to hide its parameters in.
 #![allow(clippy::too_many_arguments)]
 
