@@ -196,6 +196,24 @@ fn mirror_images_go_together() {
 }
 
 #[test]
+fn odd_numbers_keep_the_symmetry_where_they_can() {
+    let c = [30.0, 15.0, 14.0];
+    let inside = |p: [f64; 3]| {
+        ((p[0] - c[0]) / 27.0).powi(2)
+            + ((p[1] - c[1]) / 12.0).powi(2)
+            + ((p[2] - c[2]) / 11.0).powi(2)
+            < 1.0
+    };
+    let (solid, _) = cells([61, 31, 29], [1.0; 3], &inside);
+    for n in [1, 3, 5, 7] {
+        let spheres = make(&solid, &ask(n)).spheres;
+        assert_eq!(spheres.len(), n);
+        let off: f64 = spheres.iter().map(|s| s.center.x - c[0]).sum();
+        assert!(off.abs() < 1e-6, "{n}: {spheres:?}");
+    }
+}
+
+#[test]
 fn a_closed_cavity_stays_empty() {
     let dims = [52; 3];
     let c = [25.6; 3];

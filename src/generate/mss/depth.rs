@@ -171,35 +171,52 @@ fn rim_cells(lattice: &Lattice, bits: &[u64], mut found: impl FnMut([u32; 3])) {
     }
 }
 
+const SMOOTH: [i32; 5] = [0, 1, 2, 1, 0];
+const SLOPE: [i32; 5] = [-1, -2, 0, 2, 1];
+
+/// The bits of the cells i − 2 … i + 2 of a row.
+fn window(lattice: &Lattice, bits: &[u64], i: u32, j: usize, k: usize) -> u64 {
+    if j >= lattice.dims[1] || k >= lattice.dims[2] {
+        return 0;
+    }
+    let start = lattice.words * (j + lattice.dims[1] * k);
+    let Some(row) = bits.get(start..start + lattice.words) else { return 0 };
+    let word = |n: usize| row.get(n).copied().unwrap_or(0);
+    if i < 2 {
+        return word(0) << (2 - i) & 31;
+    }
+    let first = i as usize - 2;
+    let (w, b) = (first / 64, first % 64);
+    let high = if b > 59 { word(w + 1) << (64 - b) } else { 0 };
+    (word(w) >> b | high) & 31
+}
+
 /// Expected distance of an empty cell's centre from the surface, when it is the nearest to some
 /// centre: half a cell on a flat face, where the smoothed occupancy g is ¼ and falls by ½ a cell;
 /// less where g is nearer to ½. The cube is fitted to balls, boxes and turned boxes: cells are
 /// nearest because the surface comes close to them, so a partly flat face counts for little.
 fn beyond(lattice: &Lattice, bits: &[u64], cell: &[u32; 3]) -> f32 {
     let mut moments = [0i32; 4];
-    let at = |o: [i32; 3]| {
-        let q: [Option<usize>; 3] =
-            std::array::from_fn(|a| (i64::from(cell[a]) + i64::from(o[a])).try_into().ok());
-        matches!(q, [Some(i), Some(j), Some(k)] if lattice.get(bits, i, j, k))
-    };
     // Smoothed occupancy, and its central differences: (1, 2, 1) against (−1, −2, 0, 2, 1) / 2.
-    for z in -2i32..=2 {
-        for y in -2i32..=2 {
-            for x in -2i32..=2 {
-                let smooth = [x, y, z].map(|n| (2 - n.abs()).max(0));
-                let slope = [x, y, z].map(|n| n.signum() * if n.abs() == 1 { 2 } else { 1 });
-                let weights = [
-                    smooth[0] * smooth[1] * smooth[2],
-                    slope[0] * smooth[1] * smooth[2],
-                    smooth[0] * slope[1] * smooth[2],
-                    smooth[0] * smooth[1] * slope[2],
-                ];
-                if weights != [0; 4] && at([x, y, z]) {
-                    for (m, w) in moments.iter_mut().zip(weights) {
-                        *m += w;
-                    }
-                }
+    for z in 0..5 {
+        for y in 0..5 {
+            let (Some(j), Some(k)) =
+                ((cell[1] as usize + y).checked_sub(2), (cell[2] as usize + z).checked_sub(2))
+            else {
+                continue;
+            };
+            let five = window(lattice, bits, cell[0], j, k);
+            if five == 0 {
+                continue;
             }
+            let sum = |weights: [i32; 5]| -> i32 {
+                weights.iter().enumerate().map(|(x, w)| w * (five >> x & 1) as i32).sum()
+            };
+            let (smooth, slope) = (sum(SMOOTH), sum(SLOPE));
+            moments[0] += smooth * SMOOTH[y] * SMOOTH[z];
+            moments[1] += slope * SMOOTH[y] * SMOOTH[z];
+            moments[2] += smooth * SLOPE[y] * SMOOTH[z];
+            moments[3] += smooth * SMOOTH[y] * SLOPE[z];
         }
     }
     let full = f64::from(moments[0]) / 64.0;
@@ -214,4 +231,54 @@ fn beyond(lattice: &Lattice, bits: &[u64], cell: &[u32; 3]) -> f32 {
     let width: f64 = (0..3).map(|a| (slope[a] / steep).powi(2) * lattice.step[a]).sum();
     let flat = ((0.5 - full) / steep / (0.5 * width)).clamp(0.0, 1.0);
     (0.5 * width * flat.powi(3)) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_and_rims_are_those_of_the_cells() {
+        let l = Lattice::new([131, 6, 5], [1.0; 3]);
+        let mask: Vec<u8> = (0..131 * 6 * 5).map(|n| u8::from(n * n % 11 < 4)).collect();
+        let bits = l.pack(&mask).unwrap();
+        let mut rims = Vec::new();
+        rim_cells(&l, &bits, |c| rims.push(c));
+        let mut slow = Vec::new();
+        for k in 0..5 {
+            for j in 0..6 {
+                for i in 0..131usize {
+                    let five = (0..5).fold(0, |w, x| {
+                        w | u64::from((i + x).checked_sub(2).is_some_and(|q| l.get(&bits, q, j, k)))
+                            << x
+                    });
+                    assert_eq!(window(&l, &bits, i as u32, j, k), five, "{i} {j} {k}");
+                    let beside = [
+                        (i.wrapping_sub(1), j, k),
+                        (i + 1, j, k),
+                        (i, j.wrapping_sub(1), k),
+                        (i, j + 1, k),
+                        (i, j, k.wrapping_sub(1)),
+                        (i, j, k + 1),
+                    ];
+                    let solid = |(a, b, c): &(usize, usize, usize)| l.get(&bits, *a, *b, *c);
+                    if !solid(&(i, j, k)) && beside.iter().any(solid) {
+                        slow.push([i as u32, j as u32, k as u32]);
+                    }
+                }
+            }
+        }
+        assert_eq!(rims, slow);
+    }
+
+    #[test]
+    fn a_flat_face_lies_half_a_cell_off_and_a_lone_cell_too() {
+        let l = Lattice::new([12; 3], [1.0; 3]);
+        let mask: Vec<u8> = (0..1728).map(|n| u8::from(n % 12 < 6)).collect();
+        let bits = l.pack(&mask).unwrap();
+        assert_eq!(beyond(&l, &bits, &[6, 5, 6]), 0.5);
+        let rims = Rims::find(&l, &bits).unwrap();
+        let (depth, nearest) = rims.depth(&[2.0, 6.0, 6.0], 5.0);
+        assert!((depth - 3.5).abs() < 1e-9 && (nearest - 4.0).abs() < 1e-9);
+    }
 }

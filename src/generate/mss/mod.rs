@@ -93,7 +93,11 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
             if !balls.is_empty() && run.late() {
                 break 'search Stopped::Deadline;
             }
-            let Some(choice) = pool.best(target, &covered, &counts, &balls, run) else { break };
+            let Some(choice) =
+                pool.best(target, &covered, &counts, &balls, limit - balls.len(), run)
+            else {
+                break;
+            };
             // New places may be better than what is left of the old ones.
             if choice.score < WORTH * *first.get_or_insert(choice.score) {
                 pool.put_back(choice);

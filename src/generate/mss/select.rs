@@ -95,6 +95,24 @@ enum Look {
     Never,
 }
 
+/// An orbit that fits counts when it gains this part of what one does that must be cut.
+const FAIR: f64 = 0.25;
+
+/// The best candidate so far.
+struct Best {
+    score: f64,
+    /// Squared distance from the centre of symmetry.
+    key: f64,
+    index: usize,
+}
+
+impl Best {
+    fn before(&self, other: &Best) -> bool {
+        let order = other.score.total_cmp(&self.score).then(self.key.total_cmp(&other.key));
+        order.then(self.index.cmp(&other.index)) == Ordering::Less
+    }
+}
+
 /// Candidates evaluated together, so that threads have work.
 const TOGETHER: usize = 8;
 
@@ -132,24 +150,30 @@ impl Pool {
         self.heap = entries.collect();
     }
 
-    /// The orbit that brings D down most, or none that does. `chosen` are the spheres so far.
+    /// The orbit that brings D down most a sphere, or none that does. `chosen` are the spheres so
+    /// far, `room` is for how many more there is room: an orbit that needs more is cut, and
+    /// one that fits is taken instead when it does a fair part as well.
     pub fn best(
         &mut self,
         target: &Target,
         covered: &[u64],
         counts: &Counts,
         chosen: &[Ball],
+        room: usize,
         run: &Run,
     ) -> Option<Choice> {
         let mismatch = counts.mismatch();
         let score = |gain: (f64, f64)| (1.0 + mismatch) * gain.0 - (1.0 - mismatch) * gain.1;
-        let mut best: Option<(f64, f64, usize)> = None;
+        let mut best: Option<Best> = None;
+        let mut cut: Option<Best> = None;
         let mut looked: Vec<Entry> = Vec::new();
         loop {
             let mut batch = Vec::new();
+            let score_of = |b: &Option<Best>| b.as_ref().map_or(0.0, |b| b.score);
+            let least = score_of(&best).max(FAIR * score_of(&cut));
             while batch.len() < TOGETHER {
                 match self.heap.peek() {
-                    Some(top) if best.is_none_or(|(s, _, _)| top.bound * (1.0 + mismatch) >= s) => {
+                    Some(top) if top.bound * (1.0 + mismatch) >= least => {
                         batch.extend(self.heap.pop());
                     }
                     _ => break,
@@ -172,12 +196,10 @@ impl Pool {
                         let s = score(gain);
                         let key =
                             orbit.first().map_or(0.0, |b| target.mirrors.off_centre(&b.center));
-                        let better = best.is_none_or(|(t, k, n)| {
-                            s.total_cmp(&t).reverse().then(key.total_cmp(&k)).then(index.cmp(&n))
-                                == Ordering::Less
-                        });
-                        if s > 0.0 && better {
-                            best = Some((s, key, index));
+                        let next = Best { score: s, key, index };
+                        let of = if orbit.len() > room { &mut cut } else { &mut best };
+                        if s > 0.0 && of.as_ref().is_none_or(|b| next.before(b)) {
+                            *of = Some(next);
                         }
                         if let Some(c) = self.candidates.get_mut(index) {
                             c.orbit = orbit;
@@ -188,7 +210,12 @@ impl Pool {
                 }
             }
         }
-        let winner = best.map(|(_, _, n)| n);
+        let best = match (best, cut) {
+            (Some(b), Some(c)) if b.score < FAIR * c.score => Some(c),
+            (None, c) => c,
+            (b, _) => b,
+        };
+        let winner = best.as_ref().map(|b| b.index);
         let mut taken = None;
         for entry in looked {
             if Some(entry.index) == winner {
@@ -197,7 +224,7 @@ impl Pool {
                 self.heap.push(entry);
             }
         }
-        let (value, _, index) = best?;
+        let Best { score: value, index, .. } = best?;
         let candidate = self.candidates.get(index)?;
         let mut choice = Choice { orbit: candidate.orbit.clone(), score: value, entry: taken? };
         if candidate.place.peak {
