@@ -307,3 +307,36 @@ fn any_number_of_threads_gives_the_same_mask() {
     let three = Solid::new(&shape, &options(Resolution::CellsLongest(40)), &run).unwrap();
     assert_eq!(one.inside(), three.inside());
 }
+
+#[test]
+fn the_body_frame_loses_no_digits_far_from_the_origin() {
+    use morula::math::{PrincipalFrame, Sphere};
+    let shape = primitive(Primitive::Ellipsoid { axes: [0.5, 1.0, 0.25] }, 24);
+    let here = solid(&shape, Resolution::CellsLongest(16));
+    let principal = here.principal();
+    assert!(principal.moments[0] > 0.0 && principal.moments[0] <= principal.moments[2]);
+    let same = PrincipalFrame::of(&here.moments().inertia);
+    for i in 0..3 {
+        assert!((principal.moments[i] / same.moments[i] - 1.0).abs() < 1e-12);
+    }
+    let m = here.moments().centroid;
+    let on_axis = Sphere::new(m + principal.axes.column(0) * 0.25, 0.1);
+    let body = here.to_body(&[Sphere::new(m, 0.1), on_axis]);
+    assert!(body[0].center.norm() < 1e-15 && body[0].radius == 0.1);
+    assert!((body[1].center - Vec3::new(0.25, 0.0, 0.0)).norm() < 1e-15);
+    // Moved by a number that keeps every bit of multiples of 2⁻¹⁰: the same, though the
+    // centroid of the caller's frame has lost ten digits.
+    let on_lattice = |v: f64| (v * 1024.0).round() / 1024.0;
+    let Body::Mesh(mesh) = &shape.body else { unreachable!() };
+    let vertices = |by: f64| -> Vec<[f64; 3]> {
+        let place = |p: &Vec3| shape.frame.to_input(p).map(|v| on_lattice(v) + by).into();
+        mesh.vertices.iter().map(place).collect()
+    };
+    let spheres = |by: f64| [Sphere::new(Vec3::new(0.125, 0.25, -0.0625).add_scalar(by), 0.1)];
+    let by = 2f64.powi(40);
+    let at = |by: f64| {
+        let s = solid(&self::mesh(&vertices(by), &mesh.faces), Resolution::CellsLongest(16));
+        s.to_body(&spheres(by))
+    };
+    assert_eq!(at(0.0), at(by));
+}

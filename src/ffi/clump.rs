@@ -9,7 +9,7 @@ use super::structs::*;
 use crate::clump::Clump;
 use crate::error::{Error, Result};
 use crate::generate::{GenerateOptions, Method, generate};
-use crate::math::{Moments, PrincipalFrame, UnitFrame};
+use crate::math::{Moments, UnitFrame};
 use crate::measure::QualityOptions;
 use crate::run::Run;
 use crate::solid::Solid;
@@ -115,14 +115,10 @@ fn make(solid: &Solid, asked: &Asked) -> Result<morula_clump> {
     let frame = *solid.frame();
     let moments = *solid.unit_moments();
     let mut spheres = crate::error::reserve("the spheres", inner.spheres.len().saturating_mul(4))?;
-    let axes = asked.body_frame.then(|| PrincipalFrame::of(&moments.inertia).axes);
+    let body_frame = asked.body_frame.then(|| solid.body_frame());
     for s in &inner.spheres {
-        let center = match &axes {
-            // By way of the unit frame: far from the origin it loses nothing more.
-            Some(axes) => axes.tr_mul(&(frame.to_unit(&s.center) - moments.centroid)) * frame.scale,
-            None => s.center,
-        };
-        spheres.extend([center.x, center.y, center.z, s.radius]);
+        let s = body_frame.as_ref().map_or(*s, |f| f(s));
+        spheres.extend([s.center.x, s.center.y, s.center.z, s.radius]);
     }
     log(MORULA_LOG_INFO, || {
         let c = &inner.counters;

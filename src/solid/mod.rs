@@ -16,7 +16,7 @@ pub use columns::Columns;
 pub use grid::{Grid, Resolution};
 
 use crate::error::Result;
-use crate::math::{Moments, UnitFrame, Vec3};
+use crate::math::{Moments, PrincipalFrame, Sphere, UnitFrame, Vec3};
 use crate::run::Run;
 use crate::shape::{Body, Shape};
 use nearest::Surface;
@@ -86,6 +86,30 @@ impl Solid {
     /// The same in the unit frame.
     pub fn unit_moments(&self) -> &Moments {
         &self.moments
+    }
+
+    /// The body frame: its axes, found in the unit frame so that they do not depend on the
+    /// caller's unit, and the principal moments at unit density in the caller's unit.
+    pub fn principal(&self) -> PrincipalFrame {
+        let unit = PrincipalFrame::of(&self.moments.inertia);
+        let s5 = self.frame.scale.powi(5);
+        PrincipalFrame { moments: unit.moments.map(|m| m * s5), ..unit }
+    }
+
+    /// Spheres of the caller's frame in the body frame: origin at the centre of mass, axes principal.
+    pub fn to_body(&self, spheres: &[Sphere]) -> Vec<Sphere> {
+        spheres.iter().map(self.body_frame()).collect()
+    }
+
+    /// One sphere of [`Solid::to_body`]. By way of the unit frame: far from the origin it
+    /// loses nothing more.
+    pub(crate) fn body_frame(&self) -> impl Fn(&Sphere) -> Sphere + use<> {
+        let turn = PrincipalFrame::of(&self.moments.inertia).axes.transpose();
+        let (frame, centroid) = (self.frame, self.moments.centroid);
+        move |s| {
+            let center = turn * (frame.to_unit(&s.center) - centroid) * frame.scale;
+            Sphere::new(center, s.radius)
+        }
     }
 
     /// What a user should know about the solid: too few cells across, overlaps found.
