@@ -135,7 +135,7 @@ pub struct Counters {
     pub peak_bytes: u64,
     /// Distance transforms run.
     pub transforms: u64,
-    /// Exact point–surface distances asked for.
+    /// Exact point–surface distances that the quality figures asked for.
     pub exact_distances: u64,
     /// Local maxima looked at.
     pub maxima: u64,
@@ -241,6 +241,11 @@ impl<'a> Run<'a> {
             return Err(Error::Cancelled(format!("cancelled by the caller while {what}")));
         }
         Ok(())
+    }
+
+    /// Whether a deadline or the caller can end the work.
+    pub fn can_stop(&self) -> bool {
+        self.deadline.is_some() || self.progress.try_borrow().map_or(true, |p| p.is_some())
     }
 
     /// Whether the deadline has passed.

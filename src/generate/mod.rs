@@ -55,7 +55,7 @@ impl Default for GenerateOptions {
 
 /// Makes a clump.
 pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
-    check(options)?;
+    check(options, run)?;
     let mut clump = run.time(Stage::Generate, || match options.method {
         Method::Mss => mss::mss(solid, options, run),
     })?;
@@ -73,7 +73,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
     Ok(clump)
 }
 
-fn check(o: &GenerateOptions) -> Result<()> {
+fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
     for (name, value) in
         [("mismatch", o.mismatch), ("min_radius", o.min_radius), ("min_distance", o.min_distance)]
     {
@@ -87,10 +87,50 @@ fn check(o: &GenerateOptions) -> Result<()> {
             o.radius_offset
         )));
     }
-    if o.spheres == 0 && o.mismatch == 0.0 && o.min_radius == 0.0 {
+    if o.spheres == 0 && o.mismatch == 0.0 && o.min_radius == 0.0 && !run.can_stop() {
         return Err(Error::InvalidArgument(
-            "no criterion is given: spheres, mismatch and min_radius are all 0".into(),
+            "no criterion is given: spheres, mismatch and min_radius are all 0, and there is \
+             neither a deadline nor a progress callback that could cancel"
+                .into(),
         ));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(options: &GenerateOptions, run: &Run) -> bool {
+        matches!(check(options, run), Err(Error::InvalidArgument(_)))
+    }
+
+    #[test]
+    fn each_criterion_stands_alone() {
+        let none = GenerateOptions { spheres: 0, ..GenerateOptions::default() };
+        assert!(refused(&none, &Run::serial()));
+        let run = Run::serial().with_deadline(1.0);
+        assert!(!refused(&none, &run));
+        let run = Run::serial().with_progress(Box::new(|_| true));
+        assert!(!refused(&none, &run));
+        for one in [
+            GenerateOptions { spheres: 1, ..none.clone() },
+            GenerateOptions { mismatch: 0.1, ..none.clone() },
+            GenerateOptions { min_radius: 0.1, ..none.clone() },
+        ] {
+            assert!(!refused(&one, &Run::serial()));
+        }
+    }
+
+    #[test]
+    fn values_that_are_no_numbers_are_refused() {
+        for bad in [f64::NAN, f64::INFINITY, -1.0] {
+            let o = GenerateOptions::default();
+            assert!(refused(&GenerateOptions { mismatch: bad, ..o.clone() }, &Run::serial()));
+            assert!(refused(&GenerateOptions { min_radius: bad, ..o.clone() }, &Run::serial()));
+            assert!(refused(&GenerateOptions { min_distance: bad, ..o.clone() }, &Run::serial()));
+        }
+        let o = GenerateOptions { radius_offset: f64::NAN, ..GenerateOptions::default() };
+        assert!(refused(&o, &Run::serial()));
+    }
 }
