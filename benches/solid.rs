@@ -38,7 +38,7 @@ fn shapes() -> Vec<(String, Shape)> {
 
 /// A grid of 128 cells along the longest edge.
 fn grid(shape: &Shape) -> Grid {
-    let Body::Mesh(m) = &shape.body else { unreachable!() };
+    let Body::Mesh(m) = &*shape.body else { unreachable!() };
     let hi = m.vertices.iter().fold(Vec3::zeros(), |h, v| h.sup(v));
     let h = hi.max() / CELLS as f64;
     let dims = [0, 1, 2].map(|a| (hi[a] / h - 1e-9).ceil() as usize + 2 * PADDING);

@@ -53,7 +53,7 @@ fn a_cube_is_clean() {
         assert_eq!((r.volume, r.area), (8.0, 24.0));
         assert_eq!((r.box_min, r.box_max), ([3.0, -2.0, 1.0], [5.0, 0.0, 3.0]));
         assert!(r.notes.is_empty(), "{:?}", r.notes);
-        let Body::Mesh(mesh) = &s.body else { panic!("not a mesh") };
+        let Body::Mesh(mesh) = &*s.body else { panic!("not a mesh") };
         assert!(mesh.clean);
     }
 }
@@ -81,7 +81,7 @@ fn with(m: &Arrays, change: impl FnOnce(&mut ImportOptions)) -> Result<Shape, Er
 }
 
 fn mesh(s: &Shape) -> &Mesh {
-    let Body::Mesh(mesh) = &s.body else { panic!("not a mesh") };
+    let Body::Mesh(mesh) = &*s.body else { panic!("not a mesh") };
     mesh
 }
 

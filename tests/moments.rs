@@ -183,7 +183,7 @@ fn spheres_that_cross_have_the_volume_of_their_union() {
     let o = ImportOptions::default();
     let sphere = Primitive::Sphere { radius: 0.25 };
     let s = Shape::from_primitive(&sphere, 96, &o, &Run::serial()).unwrap();
-    let Body::Mesh(unit) = &s.body else { unreachable!() };
+    let Body::Mesh(unit) = &*s.body else { unreachable!() };
     let scale = s.frame.scale;
     let at = |c: Vec3| {
         let mut m = unit.clone();

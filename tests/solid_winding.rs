@@ -17,11 +17,9 @@ const ERROR: f64 = 4e-3;
 fn primitive(name: &str, segments: usize) -> Mesh {
     let p = Primitive::from_name(name).unwrap();
     let o = ImportOptions::default();
-    let Body::Mesh(m) = Shape::from_primitive(&p, segments, &o, &Run::serial()).unwrap().body
-    else {
-        unreachable!()
-    };
-    m
+    let shape = Shape::from_primitive(&p, segments, &o, &Run::serial()).unwrap();
+    let Body::Mesh(m) = &*shape.body else { unreachable!() };
+    m.clone()
 }
 
 fn scattered(n: usize) -> impl Iterator<Item = Vec3> {
@@ -138,7 +136,7 @@ fn inside_by_winding_number_is_inside_by_crossings() {
     for name in ["classic/armadillo.obj", "classic/bunny.obj", "classic/spot_low_resolution.obj"] {
         let path = std::path::Path::new(&data).join(name);
         let shape = Shape::from_file(&path, &options, &Run::serial()).unwrap();
-        if let Body::Mesh(m) = &shape.body
+        if let Body::Mesh(m) = &*shape.body
             && m.clean
         {
             alike(m, name);

@@ -23,7 +23,7 @@ fn read(bytes: &[u8], name: &str, options: &FileOptions) -> Result<Shape> {
 }
 
 fn cells(shape: &Shape) -> ([usize; 3], Vec<u8>) {
-    match &shape.body {
+    match &*shape.body {
         Body::Voxels(v) => (v.dims, v.cells.clone()),
         Body::Mesh(_) => panic!("a mesh"),
     }

@@ -16,7 +16,7 @@ fn all() -> ImportOptions {
 }
 
 fn voxels(shape: &Shape) -> &Voxels {
-    match &shape.body {
+    match &*shape.body {
         Body::Voxels(v) => v,
         Body::Mesh(_) => panic!("a mesh"),
     }

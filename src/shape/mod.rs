@@ -14,6 +14,7 @@ pub use report::Report;
 pub use voxels::{Layout, Voxels};
 
 use crate::math::UnitFrame;
+use std::sync::Arc;
 
 /// What to do with a shape that is several disconnected bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -64,8 +65,8 @@ pub enum Body {
 /// A checked shape: something with an inside.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// The body, in the unit frame.
-    pub body: Body,
+    /// The body, in the unit frame; shared with the solids made from it.
+    pub body: Arc<Body>,
     /// From the caller's frame to the unit frame.
     pub frame: UnitFrame,
     /// What was found and what was done about it, in the caller's frame.

@@ -6,7 +6,7 @@ use crate::error::{Error, Result, filled};
 use crate::math::{Moments, Vec3};
 use crate::run::{Run, Stage};
 use crate::shape::{Body, Mesh, Shape, Voxels};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// How fine a grid is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,7 +114,7 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
                 moments.relative_error
             ));
         }
-        let (grid, inside) = match &shape.body {
+        let (grid, inside) = match &*shape.body {
             Body::Voxels(v) => of_voxels(v, options)?,
             Body::Mesh(m) => of_mesh(shape, m, &moments, options, &mut notes, run)?,
         };
@@ -125,7 +125,7 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
         });
         let surface = Surface::new(&shape.body)?;
         Ok(Solid {
-            body: shape.body.clone(),
+            body: Arc::clone(&shape.body),
             frame: shape.frame,
             grid,
             inside,

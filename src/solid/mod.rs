@@ -20,7 +20,7 @@ use crate::math::{Moments, PrincipalFrame, Sphere, UnitFrame, Vec3};
 use crate::run::Run;
 use crate::shape::{Body, Shape};
 use nearest::Surface;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// How a solid is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,7 +41,7 @@ impl Default for SolidOptions {
 
 /// A shape with a grid. The signed distance field is made when first asked for.
 pub struct Solid {
-    body: Body,
+    body: Arc<Body>,
     frame: UnitFrame,
     grid: Grid,
     inside: Vec<u8>,

@@ -15,6 +15,7 @@ use crate::error::{Error, Result, filled, reserve};
 use crate::math::{UnitFrame, Vec3};
 use crate::run::{Run, Stage};
 use parts::Part;
+use std::sync::Arc;
 use topology::Edges;
 
 /// A triangle mesh after checks, in the unit frame.
@@ -357,5 +358,5 @@ fn finish(
             edges.boundary, edges.nonmanifold
         ));
     }
-    Ok(Shape { body: Body::Mesh(mesh), frame, report })
+    Ok(Shape { body: Arc::new(Body::Mesh(mesh)), frame, report })
 }

@@ -6,6 +6,7 @@ use crate::error::{self, Error, Result};
 use crate::math::{UnitFrame, Vec3};
 use crate::run::{Run, Stage};
 use crate::shape::{Bodies, Body, ImportOptions, Report, Shape};
+use std::sync::Arc;
 
 impl Shape {
     /// A shape from a mask: cells other than 0 are solid.
@@ -141,7 +142,7 @@ pub(super) fn build(
     report.box_max = [0, 1, 2].map(|a| frame.offset[a] + extent[a]);
     let spacing = Vec3::from_fn(|a, _| spacing[a] / frame.scale);
     run.count(|c| c.peak_bytes = c.peak_bytes.max(cells.len() as u64));
-    Ok(Shape { body: Body::Voxels(Voxels { dims, spacing, cells }), frame, report })
+    Ok(Shape { body: Arc::new(Body::Voxels(Voxels { dims, spacing, cells })), frame, report })
 }
 
 /// Lengths whose fifth power (an inertia) is still a normal number.
