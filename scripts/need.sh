@@ -33,14 +33,38 @@ need() {
     exit 1
 }
 
+# rust_is_new: whether cargo is at least the rust-version of Cargo.toml.
+rust_is_new() {
+    wanted=$(sed -n 's/^rust-version = "\([0-9.]*\)".*/\1/p' Cargo.toml)
+    present=$(cargo --version 2>/dev/null | sed -n 's/^cargo \([0-9]*\.[0-9]*\).*/\1/p')
+    printf '%s.%s\n' "$present" "$wanted" | awk -F. '{ exit !($1 > $3 || ($1 == $3 && $2 >= $4)) }'
+}
+
 # need_rust: cargo cannot come from apt (too old): says where it comes from.
 need_rust() {
-    have cargo && return 0
-    if [ -x "$HOME/.cargo/bin/cargo" ]; then
+    have cargo && rust_is_new && return 0
+    if [ -x "${HOME:-}/.cargo/bin/cargo" ]; then
         PATH="$HOME/.cargo/bin:$PATH"
         export PATH
-        return 0
+        rust_is_new && return 0
     fi
-    echo "$0: cargo is missing: install Rust 1.89 or later (https://rustup.rs)" >&2
+    if have cargo; then
+        echo "$0: $(cargo --version 2>&1 | head -n 1) is older than Rust $wanted: run rustup update (https://rustup.rs)" >&2
+    else
+        echo "$0: cargo is missing: install Rust 1.89 or later (https://rustup.rs)" >&2
+    fi
     exit 1
+}
+
+# python_with_numpy: one that has it, in MORULA_PYTHON. The python3 on PATH need not be the
+# system's, which is the one that packages are installed for.
+python_with_numpy() {
+    for python in "${MORULA_PYTHON:-python3}" python3 /usr/bin/python3; do
+        if "$python" -c 'import numpy' >/dev/null 2>&1 </dev/null; then
+            MORULA_PYTHON=$python
+            export MORULA_PYTHON
+            return 0
+        fi
+    done
+    return 1
 }
