@@ -6,6 +6,9 @@
 # runs the C++ example against it and the command line, prints a table, and
 # writes clumps and pictures into ./out.
 set -eu
+# awk reads and prints a decimal point.
+LC_ALL=C
+export LC_ALL
 here=$(pwd)
 cd "$(dirname "$0")/.."
 . scripts/need.sh
