@@ -10,13 +10,15 @@ use morula::math::{Moments, PrincipalFrame, Sphere};
 use morula::measure::QualityOptions;
 use morula::{Clump, Run, Shape, Solid};
 use serde_json::{Value, json};
+use std::io::{IsTerminal, Write};
 use std::time::Instant;
 
 #[derive(clap::Args)]
 pub struct Args {
     /// Shape: STL, OBJ, PLY, OFF, npy, TIFF or raw voxels, or sample:NAME[,key=value…]
     input: String,
-    /// Number of spheres; 0: no limit [default: 50, or no limit with --mismatch or --min-radius]
+    /// Number of spheres; 0: no limit, which takes another criterion [default: 50, or 0 with
+    /// --mismatch or --min-radius]
     #[arg(short = 'n', long = "spheres", value_name = "N")]
     spheres: Option<usize>,
     /// File to write; - is stdout [default: stdout]
@@ -145,13 +147,21 @@ pub fn run(args: &Args) -> Done {
             Some(_) => writeln!(out, "{figures}"),
         });
     }
-    match output {
-        Some(path) if path != "-" && !args.quiet => summary(path, &figures),
-        _ => Ok(()),
+    if !args.quiet {
+        remarks(&figures);
+        if let Some(path) = output.filter(|path| *path != "-") {
+            return write::to_terminal(|out| summary(out, path, &figures));
+        }
     }
+    Ok(())
 }
 
 impl Args {
+    /// Whether anything is measured: plane contacts are asked for by their tolerances.
+    fn measures(&self) -> bool {
+        self.quality != Wanted::None || !self.plane_tolerance.is_empty()
+    }
+
     fn generate_options(&self) -> GenerateOptions {
         let m = &self.making;
         let unbounded = m.mismatch.is_some() || m.min_radius.is_some();
@@ -165,7 +175,8 @@ impl Args {
             min_distance: m.min_distance,
             radius_offset: m.radius_offset,
             confine: m.confine,
-            quality: (self.quality != Wanted::None).then(|| QualityOptions {
+            quality: self.measures().then(|| QualityOptions {
+                overlap: self.quality != Wanted::None,
                 surface: self.quality == Wanted::Full,
                 plane_tolerances: self.plane_tolerance.clone(),
                 ..QualityOptions::default()
@@ -189,8 +200,10 @@ fn figures(
     principal: &PrincipalFrame,
     start: Instant,
 ) -> Value {
-    let q = clump.quality.as_ref();
-    let surface = q.filter(|_| args.quality == Wanted::Full);
+    let measured = clump.quality.as_ref();
+    let q = measured.filter(|_| args.quality != Wanted::None);
+    let surface = measured.filter(|_| args.quality == Wanted::Full);
+    let planes = measured.filter(|_| !args.plane_tolerance.is_empty());
     let moments = solid.moments();
     let c = &clump.counters;
     let [read, check, grid, generate, measure, integrate] = c.seconds;
@@ -211,9 +224,10 @@ fn figures(
         "protrusion": surface.map(|q| q.protrusion),
         "rms_distance": surface.map(|q| q.rms_distance),
         "hausdorff": surface.map(|q| q.hausdorff),
+        "distance_bound": surface.map(|q| q.distance_bound),
         "roughness": surface.map(|q| q.roughness),
         "never_exposed": surface.map(|q| q.never_exposed),
-        "plane_contacts": surface.map(|q| q.plane_contacts.clone()),
+        "plane_contacts": planes.map(|q| q.plane_contacts.clone()),
         "stopped": clump.stopped.name(),
         "note": clump.note,
         "notes": notes,
@@ -257,31 +271,37 @@ pub fn equivalent_diameter(volume: f64) -> f64 {
 }
 
 /// What a person wants to know after a clump was written.
-fn summary(path: &str, figures: &Value) -> Done {
+fn summary(out: &mut dyn Write, path: &str, figures: &Value) -> std::io::Result<()> {
     let number = |key: &str| figures.get(key).and_then(Value::as_f64);
-    let text = |key: &str| figures.get(key).and_then(Value::as_str).unwrap_or("").to_string();
-    write::to_stdout(|out| {
-        write!(out, "{path}: {} spheres", figures["n"])?;
-        if let Some(d) = number("D") {
-            write!(out, ", D {d:.4}")?;
+    write!(out, "{path}: {} spheres", figures["n"])?;
+    if let Some(d) = number("D") {
+        write!(out, ", D {d:.4}")?;
+    }
+    if let (Some(c), Some(o)) = (number("coverage"), number("overshoot")) {
+        write!(out, ", coverage {:.2} %, overshoot {:.2} %", 100.0 * c, 100.0 * o)?;
+    }
+    if let (Some(p), Some(d)) = (number("protrusion"), number("equivalent_diameter")) {
+        write!(out, ", protrusion {p:.3e} ({:.2} % of d_eq)", 100.0 * p / d)?;
+    }
+    if let Some(mass) = number("mass") {
+        write!(out, ", mass {mass:.6e}")?;
+    }
+    let seconds = number("seconds").unwrap_or(0.0);
+    let stopped = figures["stopped"].as_str().unwrap_or("");
+    writeln!(out, ", {:.0} ms, stopped by {stopped}", 1e3 * seconds)
+}
+
+/// What deserves a look (fewer spheres than asked for, a thin shape), for a person at a
+/// terminal; `--json` holds it for programs.
+fn remarks(figures: &Value) {
+    let mut err = std::io::stderr();
+    if !err.is_terminal() {
+        return;
+    }
+    let notes = figures["notes"].as_array().into_iter().flatten();
+    for note in std::iter::once(&figures["note"]).chain(notes) {
+        if let Some(text) = note.as_str().filter(|t| !t.is_empty()) {
+            let _ = writeln!(err, "note: {text}");
         }
-        if let (Some(c), Some(o)) = (number("coverage"), number("overshoot")) {
-            write!(out, ", coverage {:.2} %, overshoot {:.2} %", 100.0 * c, 100.0 * o)?;
-        }
-        if let (Some(p), Some(d)) = (number("protrusion"), number("equivalent_diameter")) {
-            write!(out, ", protrusion {p:.3e} ({:.2} % of d_eq)", 100.0 * p / d)?;
-        }
-        if let Some(mass) = number("mass") {
-            write!(out, ", mass {mass:.6e}")?;
-        }
-        let seconds = number("seconds").unwrap_or(0.0);
-        writeln!(out, ", {:.0} ms, stopped by {}", 1e3 * seconds, text("stopped"))?;
-        if !text("note").is_empty() {
-            writeln!(out, "note: {}", text("note"))?;
-        }
-        for note in figures["notes"].as_array().into_iter().flatten() {
-            writeln!(out, "note: {}", note.as_str().unwrap_or(""))?;
-        }
-        Ok(())
-    })
+    }
 }

@@ -3,7 +3,6 @@
 use crate::fail::{About, Done, Fail};
 use clap::ValueEnum;
 use morula::Run;
-use morula::run::Stage;
 use morula::shape::read::{FileOptions, Meaning, RawType};
 use morula::shape::voxels::Threshold;
 use morula::shape::{Bodies, ImportOptions, Primitive, Shape};
@@ -112,7 +111,7 @@ impl Reading {
                 .about(input);
         }
         let options = self.file_options()?;
-        run.time(Stage::Read, || Shape::from_file(Path::new(input), &options, run)).about(input)
+        Shape::from_file(Path::new(input), &options, run).about(input)
     }
 }
 
@@ -175,7 +174,7 @@ impl Fineness {
             memory_limit: reading.memory_limit,
             ..SolidOptions::default()
         };
-        run.time(Stage::Solid, || Solid::new(shape, &options, run))
+        Solid::new(shape, &options, run)
     }
 }
 

@@ -12,8 +12,8 @@ pub struct Args {
     /// Set a parameter; may be given more than once
     #[arg(long = "set", value_name = "KEY=VALUE", allow_hyphen_values = true)]
     set: Vec<String>,
-    /// Which stone: shorthand for --set seed=N
-    #[arg(long)]
+    /// Which stone, 0 to 2^53: shorthand for --set seed=N
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=1 << 53))]
     seed: Option<u64>,
     /// Edges around the body
     #[arg(long, default_value_t = 64)]
@@ -41,10 +41,7 @@ pub fn run(args: &Args) -> Done {
         input::set(&mut particle, pair)?;
     }
     if let Some(seed) = args.seed {
-        // Through text, so that seeds above 2^53 are refused rather than rounded.
-        if seed > 1 << 53 {
-            return Err(Fail::Usage(format!("--seed is {seed}, more than 2^53")));
-        }
+        // Above 2^53 a seed would be rounded: the parser refuses it.
         particle.set("seed", seed as f64).about(name)?;
     }
     let (vertices, faces) = particle.mesh(args.segments).about(name)?;
@@ -52,7 +49,7 @@ pub fn run(args: &Args) -> Done {
     if args.quiet {
         return Ok(());
     }
-    write::to_stdout(|out| {
+    write::to_terminal(|out| {
         write!(out, "{output}: {name}, {} vertices, {} faces", vertices.len(), faces.len())?;
         for (key, value) in particle.parameters() {
             write!(out, ", {key} {value:?}")?;

@@ -9,7 +9,7 @@ pub mod mesh;
 use crate::fail::{Done, Fail};
 use clap::ValueEnum;
 use morula::Sphere;
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, IsTerminal, Write};
 use std::path::Path;
 
 /// A file format for clumps.
@@ -68,4 +68,9 @@ pub fn to(path: &str, body: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) 
 pub fn to_stdout(body: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Done {
     let mut out = BufWriter::new(std::io::stdout().lock());
     body(&mut out).and_then(|()| out.flush()).map_err(Fail::stdout)
+}
+
+/// Writes to stdout for a person: nothing in a pipe.
+pub fn to_terminal(body: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) -> Done {
+    if std::io::stdout().is_terminal() { to_stdout(body) } else { Ok(()) }
 }
