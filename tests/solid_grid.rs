@@ -327,7 +327,7 @@ fn the_body_frame_loses_no_digits_far_from_the_origin() {
     // Moved by a number that keeps every bit of multiples of 2⁻¹⁰: the same, though the
     // centroid of the caller's frame has lost ten digits.
     let on_lattice = |v: f64| (v * 1024.0).round() / 1024.0;
-    let Body::Mesh(mesh) = &shape.body else { unreachable!() };
+    let Body::Mesh(mesh) = &*shape.body else { unreachable!() };
     let vertices = |by: f64| -> Vec<[f64; 3]> {
         let place = |p: &Vec3| shape.frame.to_input(p).map(|v| on_lattice(v) + by).into();
         mesh.vertices.iter().map(place).collect()

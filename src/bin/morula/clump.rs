@@ -6,7 +6,6 @@ use crate::progress::Bar;
 use crate::write::{self, ClumpFormat};
 use clap::ValueEnum;
 use morula::generate::{GenerateOptions, Method, generate};
-use morula::math::{Moments, PrincipalFrame, Sphere};
 use morula::measure::QualityOptions;
 use morula::{Clump, Run, Shape, Solid};
 use serde_json::{Value, json};
@@ -129,13 +128,11 @@ pub fn run(args: &Args) -> Done {
     let clump = generate(&solid, &options, &run).about(&args.input)?;
     drop(bar);
 
-    let moments = solid.moments();
-    let principal = PrincipalFrame::of(&moments.inertia);
     let spheres = match args.frame {
         Frame::Input => clump.spheres.clone(),
-        Frame::Body => to_body(&clump.spheres, &moments, &principal),
+        Frame::Body => solid.to_body(&clump.spheres),
     };
-    let figures = figures(args, &shape, &solid, &clump, &principal, start);
+    let figures = figures(args, &shape, &solid, &clump, start);
     if let Some(path) = output {
         let format = args.format.unwrap_or_else(|| ClumpFormat::of_name(path));
         write::to(path, |out| write::clump(out, format, &spheres, &figures))?;
@@ -185,26 +182,19 @@ impl Args {
     }
 }
 
-/// Spheres of the input frame in the body frame.
-fn to_body(spheres: &[Sphere], moments: &Moments, principal: &PrincipalFrame) -> Vec<Sphere> {
-    let turn = principal.axes.transpose();
-    spheres.iter().map(|s| Sphere::new(turn * (s.center - moments.centroid), s.radius)).collect()
-}
-
 /// The keys of `--json`. What was not measured is null.
 fn figures(
     args: &Args,
     shape: &Shape,
     solid: &Solid,
     clump: &Clump,
-    principal: &PrincipalFrame,
     start: Instant,
 ) -> Value {
     let measured = clump.quality.as_ref();
     let q = measured.filter(|_| args.quality != Wanted::None);
     let surface = measured.filter(|_| args.quality == Wanted::Full);
     let planes = measured.filter(|_| !args.plane_tolerance.is_empty());
-    let moments = solid.moments();
+    let (moments, principal) = (solid.moments(), solid.principal());
     let c = &clump.counters;
     let [read, check, grid, generate, measure, integrate] = c.seconds;
     let notes: Vec<&String> = shape.report.notes.iter().chain(solid.notes()).collect();

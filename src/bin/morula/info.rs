@@ -45,7 +45,9 @@ pub fn run(args: &Args) -> Done {
     let unit = solid::moments::moments(&shape.body, &run).about(&args.input)?;
     drop(bar);
     let moments = shape.frame.moments_to_input(&unit);
-    let principal = PrincipalFrame::of(&moments.inertia);
+    // In the unit frame, as for a solid: the axes do not depend on the caller's unit.
+    let mut principal = PrincipalFrame::of(&unit.inertia);
+    principal.moments = principal.moments.map(|m| m * shape.frame.scale.powi(5));
     write::to_stdout(|out| {
         if args.json {
             writeln!(out, "{}", object(args, &shape.report, &moments, &principal))

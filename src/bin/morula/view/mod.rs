@@ -20,7 +20,6 @@ use crate::write;
 use buffer::Buffer;
 use camera::Camera;
 use canvas::{Align, Canvas, Rgb, srgb};
-use morula::math::PrincipalFrame;
 use morula::measure::{Quality, QualityOptions, quality};
 use morula::{Run, Solid, Sphere};
 use shade::Light;
@@ -72,10 +71,10 @@ pub fn run(args: &Args) -> Done {
     let shape = args.reading.shape(&args.input, &run)?;
     let solid = args.fineness.solid(&shape, &args.reading, &run).about(&args.input)?;
     if args.frame == Frame::Body {
-        let moments = solid.moments();
-        let axes = PrincipalFrame::of(&moments.inertia).axes;
+        let (frame, axes) = (solid.frame(), solid.principal().axes);
         for s in &mut spheres {
-            s.center = axes * s.center + moments.centroid;
+            let unit = axes * s.center / frame.scale + solid.unit_moments().centroid;
+            s.center = frame.to_input(&unit);
         }
     }
     let measured =
