@@ -263,6 +263,21 @@ fn the_body_frame_puts_the_clump_on_its_axes() {
             assert!(((a[axis] - centre[axis]).abs() - b[i].abs()).abs() < 1e-9, "{a:?} {b:?}");
         }
     }
+    // And back: as the picture of either clump shows.
+    let mut pictures = Vec::new();
+    for frame in ["input", "body"] {
+        let clump = folder.join(format!("{frame}.csv"));
+        let png = folder.join(format!("{frame}.png"));
+        let grid = ["--cells", "24", "--frame", frame, "-q", "-o"];
+        succeeds(&[&["clump", text(&path), "-n", "12"], &grid[..], &[text(&clump)]].concat());
+        let size = ["--size", "300x160"];
+        succeeds(
+            &[&["view", text(&path), text(&clump)], &size[..], &grid[..], &[text(&png)]].concat(),
+        );
+        pictures.push(pixels(&png).1);
+    }
+    let differ = pictures[0].iter().zip(&pictures[1]).filter(|(a, b)| a.abs_diff(**b) > 8).count();
+    assert!(differ < pictures[0].len() / 500, "{differ} of {}", pictures[0].len());
     assert_eq!(body["centre"], serde_json::json!([0.0, 0.0, 0.0]));
     let moments: Vec<f64> =
         body["inertia"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
@@ -374,6 +389,16 @@ fn samples_read_back_in_every_format() {
     assert_ne!(stone("7", "a.ply"), stone("8", "c.ply"));
 }
 
+/// Size and RGB bytes of a picture.
+fn pixels(png: &Path) -> ((u32, u32), Vec<u8>) {
+    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(png).unwrap()));
+    let mut reader = decoder.read_info().unwrap();
+    let size = (reader.info().width, reader.info().height);
+    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut pixels).unwrap();
+    (size, pixels)
+}
+
 #[test]
 fn pictures_have_their_size_and_show_something() {
     let folder = folder("pictures");
@@ -395,11 +420,8 @@ fn pictures_have_their_size_and_show_something() {
         "--elevation",
         "40",
     ]);
-    let decoder = png::Decoder::new(std::io::BufReader::new(std::fs::File::open(&png).unwrap()));
-    let mut reader = decoder.read_info().unwrap();
-    assert_eq!((reader.info().width, reader.info().height), (600, 260));
-    let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
-    reader.next_frame(&mut pixels).unwrap();
+    let (size, pixels) = pixels(&png);
+    assert_eq!(size, (600, 260));
     assert_eq!(pixels.len(), 3 * 600 * 260);
     // Each third of the picture holds dark, coloured and white pixels.
     for third in 0..3 {
@@ -476,6 +498,7 @@ fn wrong_usage_is_2() {
         &["clump", "sample:box", "--threshold", "bright"],
         &["clump", "sample:box", "--format", "docx"],
         &["clump", "sample:box,a", "-n", "3"],
+        &["clump", "sample:box", "-n", "0"],
         &["info", "sample:box", "--spacing", "1,2"],
         &["sample", "box"],
         &["sample", "stone", "--seed", "9007199254740993", "-o", "s.stl"],
@@ -518,6 +541,17 @@ fn a_reader_that_goes_away_is_no_failure() {
 fn a_deadline_and_a_mismatch_stop_with_spheres() {
     let printed = succeeds(&strs(&clump(&["--json", "--deadline", "0"])));
     let v: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(v["stopped"], "deadline", "{v}");
+    assert!(v["n"].as_u64().unwrap() >= 1);
+    // Alone, it leaves the default number; with -n 0 it is the only criterion.
+    let about = |extra: &[&str]| -> Value {
+        let mut all = vec!["clump", "sample:ellipsoid", "--cells", "24", "--json"];
+        all.extend(extra);
+        serde_json::from_str(&succeeds(&all)).unwrap()
+    };
+    let v = about(&["--deadline", "1000"]);
+    assert_eq!((&v["n"], &v["stopped"]), (&50.into(), &"spheres".into()));
+    let v = about(&["-n", "0", "--deadline", "0"]);
     assert_eq!(v["stopped"], "deadline", "{v}");
     assert!(v["n"].as_u64().unwrap() >= 1);
     let printed =

@@ -67,7 +67,8 @@ struct Making {
     /// Stop at this mismatch D
     #[arg(long, value_name = "D", value_parser = input::not_negative)]
     mismatch: Option<f64>,
-    /// Stop at the first checkpoint after this many seconds, with the spheres found so far
+    /// Stop at the first checkpoint after this many seconds, with the spheres found so far;
+    /// with -n 0 the only criterion
     #[arg(long, value_name = "SECONDS", value_parser = input::not_negative)]
     deadline: Option<f64>,
     /// Least radius, in your length unit
@@ -117,6 +118,16 @@ pub fn run(args: &Args) -> Done {
         (None, false) => Some("-"),
     };
     let options = args.generate_options();
+    // The library would take the progress bar for one who can cancel.
+    if options.spheres == 0
+        && options.mismatch == 0.0
+        && options.min_radius == 0.0
+        && args.making.deadline.is_none()
+    {
+        return Err(Fail::Usage(
+            "-n 0 takes a criterion: --mismatch, --min-radius or --deadline".into(),
+        ));
+    }
     let bar = Bar::new("clump", args.quiet);
     let mut run = Run::new(args.threads).about("")?.with_seed(args.seed);
     if let Some(seconds) = args.making.deadline {
@@ -183,13 +194,7 @@ impl Args {
 }
 
 /// The keys of `--json`. What was not measured is null.
-fn figures(
-    args: &Args,
-    shape: &Shape,
-    solid: &Solid,
-    clump: &Clump,
-    start: Instant,
-) -> Value {
+fn figures(args: &Args, shape: &Shape, solid: &Solid, clump: &Clump, start: Instant) -> Value {
     let measured = clump.quality.as_ref();
     let q = measured.filter(|_| args.quality != Wanted::None);
     let surface = measured.filter(|_| args.quality == Wanted::Full);
