@@ -68,7 +68,7 @@ impl Fields {
         run: &Run,
     ) -> Vec<Place> {
         let stops = self.of_rest(target, covered, part, run);
-        transform::distance(&target.lattice, covered, &mut self.field, run.pool());
+        transform::distance(&target.lattice, covered, near(target), &mut self.field, run.pool());
         run.count(|c| c.transforms += 1);
         let slab = target.lattice.dims[0] * target.lattice.dims[1];
         run.pool().chunks_mut(&mut self.field, slab, |k, slab| {
@@ -105,7 +105,7 @@ impl Fields {
         for ((rest, solid), covered) in self.rest.iter_mut().zip(&target.bits).zip(covered) {
             *rest = solid & !covered;
         }
-        transform::distance(&target.lattice, &self.rest, &mut self.field, run.pool());
+        transform::distance(&target.lattice, &self.rest, near(target), &mut self.field, run.pool());
         run.count(|c| c.transforms += 1);
         let mut found = peaks(target, &self.field, run);
         let depth = |c: &[u32; 3]| value(&self.field, &target.lattice, c.map(i64::from));
@@ -118,7 +118,8 @@ impl Fields {
             let last = path.len() - 1;
             let mut stops = [0, last.div_ceil(3), (2 * last).div_ceil(3), last].to_vec();
             stops.dedup();
-            cells.extend(stops.into_iter().filter_map(|s| path.get(s)));
+            let stops = stops.into_iter().filter_map(|s| path.get(s));
+            cells.extend(stops.filter(|c| target.mirrors.stands(c)));
         }
         cells
     }
@@ -138,21 +139,26 @@ const FINE: f64 = 8.0;
 
 /// The maxima of a field that stand for their mirror images, without the crowd of large plateaus.
 fn peaks(target: &Target, field: &[f32], run: &Run) -> Vec<[u32; 3]> {
-    let mut found = maxima(&target.lattice, field, run.pool());
+    let mut found =
+        maxima(&target.lattice, field, target.mirrors.part_dims(target.lattice.dims), run.pool());
     run.count(|c| c.maxima += found.len() as u64);
     let kept = thin(
         std::mem::take(&mut found),
         |c| value(field, &target.lattice, c.map(i64::from)),
         f64::from,
     );
-    let mut standing: Vec<(f32, [u32; 3])> = kept
-        .into_iter()
-        .filter(|c| target.mirrors.stands(c))
-        .map(|c| (value(field, &target.lattice, c.map(i64::from)), c))
-        .collect();
+    let mut standing: Vec<(f32, [u32; 3])> =
+        kept.into_iter().map(|c| (value(field, &target.lattice, c.map(i64::from)), c)).collect();
     // The greatest of a block comes first.
     standing.sort_by(|a, b| b.0.total_cmp(&a.0));
     standing.into_iter().map(|(_, c)| c).collect()
+}
+
+/// The cells that the maxima on the low side of the mirror planes depend on.
+fn near(target: &Target) -> [usize; 3] {
+    let dims = target.lattice.dims;
+    let part = target.mirrors.part_dims(dims);
+    std::array::from_fn(|a| (part[a] + 3).min(dims[a]))
 }
 
 fn center(lattice: &Lattice, cell: &[u32; 3]) -> [f64; 3] {

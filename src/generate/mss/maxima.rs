@@ -5,9 +5,16 @@ use crate::run::Pool;
 
 /// The cells with a value above zero whose neighbourhood holds no greater value,
 /// in the order of the array. Cells on the border of the array are none. Cells of
-/// plateaus all count; [`thin`] leaves representatives of large plateaus.
-pub(super) fn maxima(lattice: &Lattice, field: &[f32], pool: &Pool) -> Vec<[u32; 3]> {
+/// plateaus all count; [`thin`] leaves representatives of large plateaus. Only cells below
+/// `most` along each axis are looked at.
+pub(super) fn maxima(
+    lattice: &Lattice,
+    field: &[f32],
+    most: [usize; 3],
+    pool: &Pool,
+) -> Vec<[u32; 3]> {
     let [nx, ny, nz] = lattice.dims;
+    let [mx, my, mz] = std::array::from_fn(|a| most[a].min(lattice.dims[a].saturating_sub(1)));
     if nx < 3 || ny < 3 || nz < 3 {
         return Vec::new();
     }
@@ -15,10 +22,10 @@ pub(super) fn maxima(lattice: &Lattice, field: &[f32], pool: &Pool) -> Vec<[u32;
         let start = nx * (j + ny * k);
         field.get(start..start + nx).unwrap_or(&[])
     };
-    let slabs = pool.map(nz - 2, |k| {
+    let slabs = pool.map(mz.saturating_sub(1), |k| {
         let k = k + 1;
         let mut found = Vec::new();
-        for j in 1..ny - 1 {
+        for j in 1..my {
             let here = row(j, k);
             if here.len() < nx {
                 continue;
@@ -34,7 +41,7 @@ pub(super) fn maxima(lattice: &Lattice, field: &[f32], pool: &Pool) -> Vec<[u32;
                 row(j - 1, k + 1),
                 row(j + 1, k + 1),
             ];
-            for i in 1..nx - 1 {
+            for i in 1..mx {
                 let v = here[i];
                 if v > 0.0
                     && here[i - 1] <= v
@@ -126,7 +133,7 @@ mod tests {
                     }
                 }
             }
-            prop_assert_eq!(maxima(&l, &field, &Pool::serial()), slow);
+            prop_assert_eq!(maxima(&l, &field, dims, &Pool::serial()), slow);
         }
     }
 

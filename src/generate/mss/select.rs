@@ -179,7 +179,9 @@ impl Pool {
                     _ => break,
                 }
             }
-            if batch.is_empty() {
+            // No end of search for an orbit that fits where hardly any does.
+            if batch.is_empty() || (cut.is_some() && best.is_none() && looked.len() > 256) {
+                self.heap.extend(batch);
                 break;
             }
             run.count(|c| c.spheres_tried += batch.len() as u64);

@@ -38,6 +38,14 @@ impl Mirrors {
         (0..3).all(|a| self.doubled[a].is_none_or(|d| 2.0 * f64::from(cell[a]) <= d))
     }
 
+    /// How many cells along each axis there are up to the planes, on them included.
+    pub fn part_dims(&self, dims: [usize; 3]) -> [usize; 3] {
+        std::array::from_fn(|a| match self.doubled[a] {
+            Some(d) => ((0.5 * d) as usize + 1).min(dims[a]),
+            None => dims[a],
+        })
+    }
+
     /// Moves the point onto the planes that are nearer than half a cell.
     pub fn snap(&self, p: &mut [f64; 3]) {
         for (a, x) in p.iter_mut().enumerate() {

@@ -58,7 +58,7 @@ impl<'a> Target<'a> {
             return Err(Error::Empty("no cell of the grid is solid".into()));
         }
         let mut distance = filled("the distance transform", mask.len(), 0f32)?;
-        transform::distance(&lattice, &bits, &mut distance, run.pool());
+        transform::distance(&lattice, &bits, dims, &mut distance, run.pool());
         run.count(|c| c.transforms += 1);
         let rims = Rims::find(&lattice, &bits)?;
         let mirrors = Mirrors::find(&lattice, &bits);

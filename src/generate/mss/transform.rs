@@ -10,8 +10,15 @@ use crate::run::Pool;
 const BLOCK: usize = 16;
 
 /// Writes into `out` the distance (not squared) from each set cell to the
-/// nearest empty one, 0 for empty cells. Cells beyond the array are empty.
-pub(super) fn distance(lattice: &Lattice, bits: &[u64], out: &mut [f32], pool: &Pool) {
+/// nearest empty one, 0 for empty cells. Cells beyond the array are empty. What is written at
+/// or above `most` along x or y means nothing: it is not wanted where mirror images are known.
+pub(super) fn distance(
+    lattice: &Lattice,
+    bits: &[u64],
+    most: [usize; 3],
+    out: &mut [f32],
+    pool: &Pool,
+) {
     let [nx, ny, nz] = lattice.dims;
     let slab = nx * ny;
     if slab == 0 || nz == 0 {
@@ -25,7 +32,7 @@ pub(super) fn distance(lattice: &Lattice, bits: &[u64], out: &mut [f32], pool: &
         }
         let mut work = Columns::new(ny, lattice.step[1]);
         let mut rows: Vec<&mut [f32]> = slab.chunks_exact_mut(nx).collect();
-        work.transform(&mut rows, false);
+        work.transform(&mut rows, most[0], false);
     });
     // The rows with the same j, across all slabs, belong together along z.
     let mut planes: Vec<Vec<&mut [f32]>> = (0..ny).map(|_| Vec::with_capacity(nz)).collect();
@@ -34,9 +41,10 @@ pub(super) fn distance(lattice: &Lattice, bits: &[u64], out: &mut [f32], pool: &
             plane.push(row);
         }
     }
+    planes.truncate(most[1]);
     pool.chunks_mut(&mut planes, 1, |_, plane| {
         for rows in plane {
-            Columns::new(nz, lattice.step[2]).transform(rows, true);
+            Columns::new(nz, lattice.step[2]).transform(rows, most[0], true);
         }
     });
 }
@@ -99,9 +107,9 @@ impl Columns {
     }
 
     /// Transforms all columns across `rows`; takes the square root when this is the last axis.
-    fn transform(&mut self, rows: &mut [&mut [f32]], last: bool) {
+    fn transform(&mut self, rows: &mut [&mut [f32]], most: usize, last: bool) {
         let n = rows.len();
-        let width = rows.first().map_or(0, |r| r.len());
+        let width = rows.first().map_or(0, |r| r.len()).min(most);
         for x0 in (0..width).step_by(BLOCK) {
             let w = BLOCK.min(width - x0);
             let mut any = false;
@@ -239,7 +247,14 @@ mod tests {
         let l = Lattice::new(dims, step);
         let bits = l.pack(mask).unwrap();
         let mut out = vec![7.0; mask.len()];
-        distance(&l, &bits, &mut out, &Pool::serial());
+        distance(&l, &bits, dims, &mut out, &Pool::serial());
+        let part = [dims[0].div_ceil(2), dims[1].div_ceil(3), dims[2]];
+        let mut some = vec![7.0; mask.len()];
+        distance(&l, &bits, part, &mut some, &Pool::serial());
+        for (n, (a, b)) in some.iter().zip(&out).enumerate() {
+            let (i, j) = (n % dims[0], n / dims[0] % dims[1]);
+            assert!(i >= part[0] || j >= part[1] || a == b);
+        }
         for (n, (a, b)) in out.iter().zip(slow(mask, dims, step)).enumerate() {
             assert!((f64::from(*a) - b).abs() <= 1e-5 * (1.0 + b), "cell {n}: {a} and {b}");
         }

@@ -1,0 +1,144 @@
+//! What MSS costs on the two benchmarks of its paper, in CPU time on one thread and in bytes a
+//! voxel, beside the reference implementation (the PyPI package `multisphere`) on the same
+//! voxels in the same run, when `MORULA_PEER_PYTHON` names a Python that has it. The
+//! femur needs `MORULA_DATA`.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
+
+use morula::generate::{GenerateOptions, generate};
+use morula::shape::read::FileOptions;
+use morula::shape::{Bodies, ImportOptions, Layout};
+use morula::solid::{Resolution, SolidOptions};
+use morula::{Run, Shape, Solid};
+use std::path::Path;
+use std::process::Command;
+
+/// Seconds on the processor of this thread (Linux).
+fn cpu() -> f64 {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap();
+    text.split_whitespace().next().unwrap().parse::<f64>().unwrap() * 1e-9
+}
+
+struct Voxels {
+    name: &'static str,
+    spheres: usize,
+    dims: [usize; 3],
+    mask: Vec<u8>,
+}
+
+/// The ellipsoid of 205 × 103 × 103 cells in 209 × 107 × 107.
+fn ellipsoid() -> Voxels {
+    let dims = [209, 107, 107];
+    let mut mask = Vec::new();
+    for n in 0..dims.iter().product() {
+        let cell = [n % dims[0], n / dims[0] % dims[1], n / dims[0] / dims[1]];
+        let q: f64 = (0..3)
+            .map(|a| {
+                let half = 0.5 * (dims[a] as f64 - 4.0);
+                ((cell[a] as f64 + 0.5 - 0.5 * dims[a] as f64) / half).powi(2)
+            })
+            .sum();
+        mask.push(u8::from(q <= 1.0));
+    }
+    Voxels { name: "ellipsoid", spheres: 10, dims, mask }
+}
+
+/// The femur with 102 cells on its shortest side.
+fn femur() -> Option<Voxels> {
+    let data = std::env::var("MORULA_DATA").ok()?;
+    let path = Path::new(&data).join("benchmark/femur.stl");
+    let run = Run::serial();
+    let shape = Shape::from_file(&path, &FileOptions::default(), &run).ok()?;
+    let resolution = Resolution::CellsShortest(102);
+    let solid = Solid::new(
+        &shape,
+        &SolidOptions { resolution, padding: 2, ..SolidOptions::default() },
+        &run,
+    );
+    let solid = solid.unwrap();
+    let mask = solid.inside().to_vec();
+    Some(Voxels { name: "femur", spheres: 70, dims: solid.grid().dims, mask })
+}
+
+/// Seconds and bytes a voxel of ours: from the solid's cells to spheres, least of three.
+fn ours(v: &Voxels) -> (f64, f64) {
+    let layout = Layout { dims: v.dims, spacing: [1.0; 3], origin: [0.0; 3] };
+    let import = ImportOptions { bodies: Bodies::All, ..ImportOptions::default() };
+    let mut best = (f64::INFINITY, 0.0);
+    for _ in 0..3 {
+        let run = Run::serial();
+        let start = cpu();
+        let shape = Shape::from_mask(&v.mask, &layout, &import, &run).unwrap();
+        let options = SolidOptions { padding: 2, ..SolidOptions::default() };
+        let solid = Solid::new(&shape, &options, &run).unwrap();
+        let asked = GenerateOptions { spheres: v.spheres, ..GenerateOptions::default() };
+        let clump = generate(&solid, &asked, &run).unwrap();
+        let seconds = cpu() - start;
+        assert_eq!(clump.spheres.len(), v.spheres);
+        let bytes = clump.counters.peak_bytes as f64 / solid.grid().len() as f64;
+        best = (seconds.min(best.0), bytes);
+    }
+    best
+}
+
+const PEER: &str = "
+import contextlib, io, resource, sys
+def cpu():
+    u = resource.getrusage(resource.RUSAGE_SELF)
+    return u.ru_utime + u.ru_stime
+import multisphere as mss
+with contextlib.redirect_stdout(io.StringIO()):
+    grid = mss.load_voxels_from_npy(sys.argv[1])
+    start = cpu()
+    mss.multisphere_from_voxels(grid, min_center_distance_vox=4, max_spheres=int(sys.argv[2]))
+    seconds = cpu() - start
+print(seconds)
+";
+
+/// Seconds of the peer on the same voxels; `None` when it is not installed.
+fn peer(v: &Voxels) -> Option<f64> {
+    let python = std::env::var("MORULA_PEER_PYTHON").ok()?;
+    let path = std::env::temp_dir().join(format!("morula-{}-{}.npy", v.name, std::process::id()));
+    let [x, y, z] = v.dims;
+    let mut header =
+        format!("{{'descr': '|u1', 'fortran_order': True, 'shape': ({x}, {y}, {z}), }}");
+    while (header.len() + 11) % 64 != 0 {
+        header.push(' ');
+    }
+    header.push('\n');
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.bytes());
+    bytes.extend(&v.mask);
+    std::fs::write(&path, bytes).unwrap();
+    let out = Command::new(python)
+        .args(["-c", PEER, path.to_str()?, &v.spheres.to_string()])
+        .env("OMP_NUM_THREADS", "1")
+        .env("OPENBLAS_NUM_THREADS", "1")
+        .output()
+        .ok();
+    std::fs::remove_file(&path).unwrap();
+    String::from_utf8(out?.stdout).ok()?.trim().parse().ok()
+}
+
+fn main() {
+    println!(
+        "{:<10} {:>15} {:>4} {:>9} {:>9} {:>7} {:>13}",
+        "shape", "voxels", "n", "ours s", "peer s", "ratio", "bytes/voxel"
+    );
+    for v in std::iter::once(ellipsoid()).chain(femur()) {
+        let (seconds, bytes) = ours(&v);
+        let dims = v.dims.map(|n| n.to_string()).join("x");
+        print!("{:<10} {dims:>15} {:>4} {seconds:>9.3} ", v.name, v.spheres);
+        match peer(&v) {
+            Some(p) => println!("{p:>9.3} {:>7.1} {bytes:>13.1}", p / seconds),
+            None => println!("{:>9} {:>7} {bytes:>13.1}", "-", "-"),
+        }
+    }
+    if std::env::var("MORULA_PEER_PYTHON").is_err() {
+        println!("the peer is not installed: MORULA_PEER_PYTHON is not set");
+    }
+    if std::env::var("MORULA_DATA").is_err() {
+        println!("the femur is left out: MORULA_DATA is not set");
+    }
+}
