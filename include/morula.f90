@@ -223,6 +223,7 @@ module morula
     real(c_double) :: protrusion = 0.0_c_double
     real(c_double) :: rms_distance = 0.0_c_double
     real(c_double) :: hausdorff = 0.0_c_double
+    real(c_double) :: distance_bound = 0.0_c_double
     real(c_double) :: roughness = 0.0_c_double
     integer(c_int64_t) :: samples = 0_c_int64_t
     integer(c_int32_t) :: never_exposed = 0_c_int32_t
@@ -973,7 +974,10 @@ contains
     integer :: i, n
     call self%destroy()
     n = 0
-    if (present(keys) .and. present(values)) n = min(size(keys), size(values))
+    if (present(keys)) n = size(keys)
+    if (present(values)) n = n - size(values)
+    if (n /= 0) error stop 'morula: keys and values have one element for each parameter'
+    if (present(keys)) n = size(keys)
     if (present(keys)) then
       allocate(texts(len(keys) + 1, max(n, 1)))
     else

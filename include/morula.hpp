@@ -326,6 +326,8 @@ class Solid {
   }
   /// Exact signed distances, negative inside; x, y, z of each point.
   std::vector<double> distance(const std::vector<double> &points) const {
+    if (points.size() % 3 != 0)
+      throw Error(MORULA_STATUS_INVALID_ARGUMENT, "points come in threes");
     std::vector<double> distances(points.size() / 3);
     check(morula_solid_distance(get(), distances.size(), points.data(), distances.data()));
     return distances;

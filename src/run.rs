@@ -145,6 +145,26 @@ pub struct Counters {
     pub columns: u64,
 }
 
+impl Counters {
+    /// The counters of this call and a later one: sums, and the greater of the peaks.
+    pub fn then(&self, later: &Counters) -> Counters {
+        let mut seconds = self.seconds;
+        for (sum, more) in seconds.iter_mut().zip(later.seconds) {
+            *sum += more;
+        }
+        Counters {
+            seconds,
+            cells: self.cells.saturating_add(later.cells),
+            peak_bytes: self.peak_bytes.max(later.peak_bytes),
+            transforms: self.transforms.saturating_add(later.transforms),
+            exact_distances: self.exact_distances.saturating_add(later.exact_distances),
+            maxima: self.maxima.saturating_add(later.maxima),
+            spheres_tried: self.spheres_tried.saturating_add(later.spheres_tried),
+            columns: self.columns.saturating_add(later.columns),
+        }
+    }
+}
+
 /// What a call runs with. It lives on the calling thread; only its [`Pool`] is shared.
 pub struct Run<'a> {
     pool: Pool,

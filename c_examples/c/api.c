@@ -22,6 +22,23 @@ static int32_t progress(double fraction, void *user) {
 static const char OFF[] =
     "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 
+/* Times and counters of a clump cover its shape and solid; what was not wanted stays 0. */
+static void whole_road(const morula_shape *read_from_file) {
+  morula_clump *clump = NULL;
+  morula_clump_options options;
+  morula_counters counters = {0};
+  counters.struct_size = sizeof counters;
+  OK(morula_clump_options_init(&options, sizeof options));
+  options.spheres = 3;
+  options.wants = MORULA_WANT_NOTHING;
+  OK(morula_clump_from_shape(read_from_file, NULL, &options, &clump));
+  OK(morula_clump_counters(clump, &counters));
+  CHECK(counters.seconds_read > 0 && counters.seconds_check > 0 && counters.seconds_solid > 0);
+  CHECK(counters.seconds_generate > 0 && counters.cells > 0 && counters.peak_bytes > 0);
+  CHECK(counters.seconds_measure == 0 && counters.columns == 0 && counters.exact_distances == 0);
+  morula_clump_free(clump);
+}
+
 static void shapes(void) {
   morula_shape *shape = l_shape();
   morula_report report = {0};
@@ -52,6 +69,7 @@ static void shapes(void) {
   import.length_unit = 0.001;
   OK(morula_shape_from_file(path, &import, &options, &shape));
   OK(morula_shape_report(shape, &report));
+  whole_road(shape);
   NEAR(report.volume, 1e-9 / 6, 1e-20);
   CHECK(report.length_unit == 0.001);
   morula_shape_free(shape);
@@ -158,6 +176,9 @@ static void primitives(void) {
       double value = NAN;
       OK(morula_primitive_copy_parameter(name, i, sizeof key, key, &length, &value));
       CHECK(strlen(key) == length && isfinite(value));
+      double alone = NAN;
+      OK(morula_primitive_copy_parameter(name, i, 0, NULL, NULL, &alone));
+      CHECK(alone == value);
     }
   }
   CHECK(names >= 11);
@@ -255,6 +276,7 @@ static void clumps(void) {
   OK(morula_clump_surface(clump, &surface));
   CHECK(surface.protrusion >= 0 && surface.protrusion < 0.3);
   CHECK(surface.hausdorff >= surface.rms_distance && surface.rms_distance > 0);
+  CHECK(surface.distance_bound >= 0 && surface.distance_bound < 0.1);
   CHECK(surface.roughness > 0 && surface.roughness < 1.6 && surface.samples > 0);
   double areas[20], sum = 0;
   uint32_t contacts[2];
@@ -267,6 +289,9 @@ static void clumps(void) {
   NEAR(moments.mass, L_MASS, 1e-12);
   OK(morula_clump_counters(clump, &counters));
   CHECK(counters.seconds_generate > 0 && counters.seconds_measure > 0);
+  /* Also what the calls before did, whose handles are gone; nothing was read from a file. */
+  CHECK(counters.seconds_check > 0 && counters.seconds_solid > 0 && counters.cells > 0);
+  CHECK(counters.seconds_read == 0 && counters.seconds_moments > 0 && counters.columns > 0);
   morula_clump_free(clump);
   clump = NULL;
 

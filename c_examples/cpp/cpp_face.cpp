@@ -95,6 +95,7 @@ int main() {
   CHECK(status_of([] { morula::Shape::from_file("no/such.stl"); }) == MORULA_STATUS_IO);
   CHECK(status_of([] { morula::Shape::from_mesh({}, {}); }) == MORULA_STATUS_EMPTY);
   CHECK(status_of([] { morula::Shape::from_mesh({1}, {}); }) == MORULA_STATUS_INVALID_ARGUMENT);
+  CHECK(status_of([&] { solid.distance({1, 2}); }) == MORULA_STATUS_INVALID_ARGUMENT);
   CHECK(status_of([] { morula::Shape::from_primitive("cheese"); }) == MORULA_STATUS_UNSUPPORTED);
   CHECK(status_of([] { morula::Shape::from_mask({1, 1}, {{3, 1, 1}}); }) ==
         MORULA_STATUS_INVALID_ARGUMENT);

@@ -321,12 +321,13 @@ contains
     call check(overlap%coverage > 0.4 .and. overlap%mismatch < 0.5, 'overlap')
     call clump%surface(surface)
     call check(surface%samples > 0 .and. surface%hausdorff >= surface%rms_distance, 'surface')
+    call check(surface%distance_bound >= 0 .and. surface%distance_bound < 0.1, 'distance bound')
     call clump%copy_exposed_areas(areas)
     call check(sum(areas(:n)) > 5, 'exposed areas')
     call clump%copy_plane_contacts(contacts)
     call check(contacts(1) >= 1 .and. contacts(2) >= contacts(1), 'plane contacts')
     call clump%counters(counters)
-    call check(counters%seconds_generate > 0, 'counters')
+    call check(counters%seconds_generate > 0 .and. counters%seconds_check > 0, 'counters')
 
     ! From the shape, in the body frame; back by p = R b + centre.
     options%frame = MORULA_FRAME_BODY

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::generate::{GenerateOptions, Method, generate};
 use crate::math::{Moments, UnitFrame};
 use crate::measure::QualityOptions;
-use crate::run::Run;
+use crate::run::{Counters, Run};
 use crate::solid::Solid;
 
 /// A clump: spheres and what was measured on them. Made by
@@ -110,8 +110,9 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
     Ok(Asked { generate, run, wants: o.wants, body_frame })
 }
 
-fn make(solid: &Solid, asked: &Asked) -> Result<morula_clump> {
-    let inner = generate(solid, &asked.generate, &asked.run)?;
+/// `before` is what the calls that made shape and solid did.
+fn make(solid: &Solid, asked: &Asked, before: &Counters) -> Result<morula_clump> {
+    let mut inner = generate(solid, &asked.generate, &asked.run)?;
     let frame = *solid.frame();
     let moments = *solid.unit_moments();
     let mut spheres = crate::error::reserve("the spheres", inner.spheres.len().saturating_mul(4))?;
@@ -132,6 +133,7 @@ fn make(solid: &Solid, asked: &Asked) -> Result<morula_clump> {
     if !inner.note.is_empty() {
         log_notes(std::slice::from_ref(&inner.note));
     }
+    inner.counters = before.then(&inner.counters);
     Ok(morula_clump {
         inner,
         spheres,
@@ -178,7 +180,7 @@ pub unsafe extern "C" fn morula_clump_from_shape(
         let solid_options = unsafe { read(solid_options)? };
         let asked = unsafe { asked(options)? };
         let solid = build(&shape.inner, &solid_options, &asked.run)?;
-        let made = make(&solid, &asked)?;
+        let made = make(&solid, &asked, &shape.counters)?;
         unsafe { give(clump, made) };
         Ok(())
     })
@@ -205,7 +207,7 @@ pub unsafe extern "C" fn morula_clump_from_solid(
         let solid = unsafe { borrow(solid, "solid")? };
         require(clump, "clump")?;
         let asked = unsafe { asked(options)? };
-        let made = make(&solid.inner, &asked)?;
+        let made = make(&solid.inner, &asked, &solid.counters)?;
         unsafe { give(clump, made) };
         Ok(())
     })

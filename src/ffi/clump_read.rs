@@ -3,7 +3,7 @@
 use super::clump::morula_clump;
 use super::guard::{borrow, copy_out, copy_text, guard};
 use super::options::{check, fill};
-use super::shape::{check_density, moments_struct, put};
+use super::shape::{moments_struct, put};
 use super::structs::*;
 use crate::clump::Stopped;
 use crate::error::{Error, Result};
@@ -136,7 +136,7 @@ pub unsafe extern "C" fn morula_clump_copy_note(
 /// set its struct_size first.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; NOT_WANTED (without
 /// MORULA_WANT_MOMENTS); INVALID_ARGUMENT (the density is not a number greater
-/// than 0).
+/// than 0, or so great that mass or inertia overflow).
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_clump_moments(
@@ -152,8 +152,7 @@ pub unsafe extern "C" fn morula_clump_moments(
                 "MORULA_WANT_MOMENTS was not wanted when the clump was made".into(),
             ));
         }
-        check_density(density)?;
-        let value = moments_struct(&clump.target.0, &clump.target.1, density);
+        let value = moments_struct(&clump.target.0, &clump.target.1, density)?;
         unsafe { fill(moments, &value) }
     })
 }
@@ -211,6 +210,7 @@ pub unsafe extern "C" fn morula_clump_surface(
             protrusion: q.protrusion,
             rms_distance: q.rms_distance,
             hausdorff: q.hausdorff,
+            distance_bound: q.distance_bound,
             roughness: q.roughness,
             samples: q.samples,
             never_exposed: q.never_exposed,
@@ -261,7 +261,10 @@ pub unsafe extern "C" fn morula_clump_copy_plane_contacts(
     })
 }
 
-/// What the call that made the clump did: stage times and counters.
+/// What was done on the whole road to the clump: stage times and counters of
+/// the calls that made its shape, its solid and itself, added up (of peak_bytes
+/// the greatest). What was not wanted stays 0. The calls that made a solid or a
+/// shape count in every clump that was made from it.
 ///
 /// Parameters: `counters` is filled; set its struct_size first.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.

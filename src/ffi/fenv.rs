@@ -5,9 +5,11 @@
 //! operations, a host built with `-ffast-math` may flush subnormals to zero. So
 //! a guarded call works in the default environment, which also makes its result
 //! the same bytes under every host, and puts the host's back, flags included,
-//! when it ends and while it calls the host. Threads inherit the environment of
+//! when it ends and while it calls the host. (The host's panics are printed
+//! again meanwhile: see guard.rs.) Threads inherit the environment of
 //! the thread that starts them, so that the pool works in the default one too.
 
+use crate::run::QUIET;
 use std::cell::Cell;
 
 /// Room for any platform's `fenv_t`.
@@ -32,10 +34,20 @@ pub(super) fn default<T>(work: impl FnOnce() -> T) -> T {
 /// Runs `call`, which is the host's, in the host's environment.
 pub(super) fn host<T>(call: impl FnOnce() -> T) -> T {
     let _back = Back { outer: HOST.get(), current: save() };
+    let _quiet = Quiet(QUIET.replace(false));
     if let Some(host) = HOST.get() {
         restore(&host);
     }
     call()
+}
+
+/// Whether panics were kept silent: a host's own are not, while its code runs.
+struct Quiet(bool);
+
+impl Drop for Quiet {
+    fn drop(&mut self) {
+        QUIET.set(self.0);
+    }
 }
 
 /// Puts things back at the end, also when a panic passes.

@@ -162,6 +162,6 @@ unsafe fn read_file(
         Source::Path(path) => Shape::from_file(std::path::Path::new(path), &options, &run)?,
         Source::Bytes(bytes, name) => Shape::from_bytes(bytes, name, &options, &run)?,
     };
-    unsafe { give_shape(shape, made) };
+    unsafe { give_shape(shape, made, &run) };
     Ok(())
 }

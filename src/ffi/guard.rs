@@ -5,7 +5,8 @@
 //! must not be printed as well. Rust prints through one process-wide hook. The
 //! first guarded call therefore puts a hook in front of the one it finds: it is
 //! silent on threads that are inside a guarded call (and on the workers of such
-//! a call), and hands every other panic to the hook that was there before. A
+//! a call) and not in a callback of the host's, and hands every other panic to
+//! the hook that was there before. A
 //! hook that the host installs later replaces ours, as the host asked. Programs
 //! that use the crate from Rust without this room never get the hook.
 
@@ -283,6 +284,14 @@ mod tests {
                 let _ = catch_unwind(|| panic!("of the host"));
                 let _ = std::thread::spawn(|| panic!("of the host's thread")).join();
             }
+            Ok("callback") => {
+                guard(|| {
+                    let theirs =
+                        super::super::fenv::host(|| catch_unwind(|| panic!("of the callback")));
+                    assert!(theirs.is_err());
+                    panic!("of the library")
+                });
+            }
             _ => {}
         }
     }
@@ -301,6 +310,9 @@ mod tests {
         assert_eq!(stderr("guarded"), "");
         let host = stderr("host");
         assert!(host.contains("of the host\n") && host.contains("of the host's thread"), "{host}");
+        let callback = stderr("callback");
+        assert!(callback.contains("of the callback\n"), "{callback}");
+        assert!(!callback.contains("of the library"), "{callback}");
     }
 
     #[test]

@@ -26,6 +26,8 @@ mod shape;
 mod solid;
 mod status;
 mod structs;
+#[cfg(test)]
+mod tests;
 mod voxels;
 
 pub use callbacks::*;

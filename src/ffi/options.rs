@@ -10,7 +10,7 @@ use super::structs::*;
 use crate::error::{Error, Result};
 
 /// No struct is larger; a greater `struct_size` is a forgotten one.
-const MOST: usize = 1 << 16;
+const MOST: usize = 4096;
 
 /// A struct with `struct_size`.
 ///

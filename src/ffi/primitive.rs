@@ -71,7 +71,13 @@ pub unsafe extern "C" fn morula_primitive_copy_parameter(
                 all.len()
             ))
         })?;
-        unsafe { copy_text(text, capacity, key, length)? };
+        if !value.is_null() {
+            require(value, "value")?;
+        }
+        // Nothing of the key may be asked for.
+        if capacity > 0 || !key.is_null() || !length.is_null() {
+            unsafe { copy_text(text, capacity, key, length)? };
+        }
         if !value.is_null() {
             unsafe { put(value, *default, "value")? };
         }
@@ -122,7 +128,7 @@ pub unsafe extern "C" fn morula_shape_from_primitive(
         }
         let segments = if segments == 0 { 64 } else { segments as usize };
         let made = Shape::from_primitive(&primitive, segments, &import, &run)?;
-        unsafe { give_shape(shape, made) };
+        unsafe { give_shape(shape, made, &run) };
         Ok(())
     })
 }

@@ -6,7 +6,7 @@ use super::options::{fill, init, read};
 use super::structs::*;
 use crate::error::{Error, Result};
 use crate::math::{Moments, PrincipalFrame, UnitFrame};
-use crate::run::{Run, Stage};
+use crate::run::{Counters, Run};
 use crate::shape::{Bodies, ImportOptions, Shape};
 use crate::solid::moments::moments as unit_moments;
 use std::ffi::c_char;
@@ -15,6 +15,8 @@ use std::ffi::c_char;
 /// functions, freed by morula_shape_free().
 pub struct morula_shape {
     pub(super) inner: Shape,
+    /// Of the call that made it.
+    pub(super) counters: Counters,
 }
 
 const _: () = {
@@ -71,9 +73,9 @@ pub(super) fn reserved(name: &str, value: i32) -> Result<()> {
 }
 
 /// Hands a new shape to the caller.
-pub(super) unsafe fn give_shape(out: *mut *mut morula_shape, shape: Shape) {
+pub(super) unsafe fn give_shape(out: *mut *mut morula_shape, shape: Shape, run: &Run) {
     log_notes(&shape.report.notes);
-    unsafe { give(out, morula_shape { inner: shape }) };
+    unsafe { give(out, morula_shape { inner: shape, counters: run.counters() }) };
 }
 
 /// Fills options with the defaults.
@@ -126,7 +128,7 @@ pub unsafe extern "C" fn morula_shape_from_mesh(
             faces = std::borrow::Cow::Owned(rebased(&faces, vertices.len(), base)?);
         }
         let made = Shape::from_mesh(vertices, &faces, &import, &run)?;
-        unsafe { give_shape(shape, made) };
+        unsafe { give_shape(shape, made, &run) };
         Ok(())
     })
 }
@@ -250,7 +252,8 @@ pub unsafe extern "C" fn morula_shape_copy_note(
 /// Parameters: `density` is mass per (caller's unit)^3; `moments` is filled:
 /// set its struct_size first.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INVALID_ARGUMENT (the
-/// density is not a number greater than 0); OUT_OF_MEMORY; INTERNAL.
+/// density is not a number greater than 0, or so great that mass or inertia
+/// overflow); OUT_OF_MEMORY; INTERNAL.
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_shape_moments(
@@ -262,9 +265,8 @@ pub unsafe extern "C" fn morula_shape_moments(
         let shape = &unsafe { borrow(shape, "shape")? }.inner;
         unsafe { super::options::check(moments)? };
         check_density(density)?;
-        let run = Run::serial();
-        let unit = run.time(Stage::Moments, || unit_moments(&shape.body, &run))?;
-        let value = moments_struct(&unit, &shape.frame, density);
+        let unit = unit_moments(&shape.body, &Run::serial())?;
+        let value = moments_struct(&unit, &shape.frame, density)?;
         unsafe { fill(moments, &value) }
     })
 }
@@ -292,13 +294,18 @@ pub(super) fn check_density(density: f64) -> Result<()> {
 
 /// Moments of the unit frame as the caller gets them. The principal frame is
 /// found in the unit frame, so that it does not depend on the caller's unit.
-pub(super) fn moments_struct(unit: &Moments, frame: &UnitFrame, density: f64) -> morula_moments {
+pub(super) fn moments_struct(
+    unit: &Moments,
+    frame: &UnitFrame,
+    density: f64,
+) -> Result<morula_moments> {
+    check_density(density)?;
     let input = frame.moments_to_input(unit);
     let principal = PrincipalFrame::of(&unit.inertia);
     let to_mass = frame.scale.powi(5) * density;
     let mut rotation = [0.0; 9];
     rotation.copy_from_slice(principal.axes.as_slice());
-    morula_moments {
+    let value = morula_moments {
         struct_size: 0,
         volume: input.volume,
         mass: input.volume * density,
@@ -308,5 +315,13 @@ pub(super) fn moments_struct(unit: &Moments, frame: &UnitFrame, density: f64) ->
         rotation,
         quaternion: principal.quaternion,
         relative_error: unit.relative_error,
+    };
+    let finite = [value.volume, value.mass].iter().all(|v| v.is_finite())
+        && value.inertia.iter().chain(&value.principal).all(|v| v.is_finite());
+    if !finite {
+        return Err(Error::InvalidArgument(format!(
+            "density is {density}: the mass or the inertia is greater than any number"
+        )));
     }
+    Ok(value)
 }

@@ -3,11 +3,11 @@
 use super::callbacks::{log_notes, run};
 use super::guard::{borrow, check_bytes, copy_text, give, guard, require, slice, take};
 use super::options::{check, fill, init, read};
-use super::shape::{check_density, moments_struct, morula_shape, note, put};
+use super::shape::{moments_struct, morula_shape, note, put};
 use super::structs::*;
 use crate::error::{Error, Result};
 use crate::math::Vec3;
-use crate::run::{Run, Stage};
+use crate::run::{Counters, Run};
 use crate::shape::Shape;
 use crate::solid::{Resolution, Solid, SolidOptions};
 use std::ffi::c_char;
@@ -16,6 +16,8 @@ use std::ffi::c_char;
 /// morula_solid_free(). It does not need its shape any more.
 pub struct morula_solid {
     pub(super) inner: Solid,
+    /// Of the calls that made its shape and itself.
+    pub(super) counters: Counters,
 }
 
 const _: () = {
@@ -93,7 +95,8 @@ pub unsafe extern "C" fn morula_solid_from_shape(
         let o = unsafe { read(options)? };
         let run = run(o.threads, o.progress, o.user)?;
         let inner = build(&shape.inner, &o, &run)?;
-        unsafe { give(solid, morula_solid { inner }) };
+        let counters = shape.counters.then(&run.counters());
+        unsafe { give(solid, morula_solid { inner, counters }) };
         Ok(())
     })
 }
@@ -230,10 +233,7 @@ pub unsafe extern "C" fn morula_solid_moments(
     guard(|| {
         let solid = &unsafe { borrow(solid, "solid")? }.inner;
         unsafe { check(moments)? };
-        check_density(density)?;
-        let run = Run::serial();
-        let value = run
-            .time(Stage::Moments, || moments_struct(solid.unit_moments(), solid.frame(), density));
+        let value = moments_struct(solid.unit_moments(), solid.frame(), density)?;
         unsafe { fill(moments, &value) }
     })
 }

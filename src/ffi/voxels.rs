@@ -1,6 +1,6 @@
 //! Shapes from arrays of voxels: masks, grey volumes, labels.
 
-use super::guard::{array_or, copy_out, guard, require, slice};
+use super::guard::{array_or, guard, require, slice};
 use super::shape::{give_shape, import, morula_shape, put};
 use super::structs::morula_import_options;
 use crate::error::{Error, Result};
@@ -77,7 +77,7 @@ pub unsafe extern "C" fn morula_shape_from_mask(
         let layout = unsafe { layout(dims, spacing, origin)? };
         let mask = unsafe { cells(mask, layout.dims, "mask")? };
         let made = Shape::from_mask(mask, &layout, &import, &run)?;
-        unsafe { give_shape(shape, made) };
+        unsafe { give_shape(shape, made, &run) };
         Ok(())
     })
 }
@@ -96,7 +96,7 @@ unsafe fn grey(
         above(unsafe { array_or(threshold, [0.0], "threshold")? }[0])?
     };
     let made = Shape::from_grey(values, layout, threshold, &import, &run)?;
-    unsafe { give_shape(shape, made) };
+    unsafe { give_shape(shape, made, &run) };
     Ok(())
 }
 
@@ -196,7 +196,7 @@ pub unsafe extern "C" fn morula_shape_from_label(
         let layout = unsafe { layout(dims, spacing, origin)? };
         let labels = unsafe { cells(labels, layout.dims, "labels")? };
         let made = Shape::from_label(labels, &layout, label, &import, &run)?;
-        unsafe { give_shape(shape, made) };
+        unsafe { give_shape(shape, made, &run) };
         Ok(())
     })
 }
@@ -252,18 +252,28 @@ pub unsafe extern "C" fn morula_labels_copy(
                 all.len()
             )));
         }
-        unsafe fn each<T: Copy>(to: *mut T, from: Vec<T>, name: &str) -> Result<()> {
-            match to.is_null() {
-                true => Ok(()),
-                false => unsafe { copy_out(&from, from.len(), to, name) },
+        // All of them are looked at before the first is written.
+        fn writable<T>(to: *mut T, name: &str) -> Result<()> {
+            if to.is_null() { Ok(()) } else { require(to, name) }
+        }
+        writable(ids, "ids")?;
+        writable(cells, "cells")?;
+        writable(boxes, "boxes")?;
+        writable(touches_border, "touches_border")?;
+        unsafe fn each<T>(to: *mut T, values: impl Iterator<Item = T>) {
+            if !to.is_null() {
+                for (i, value) in values.enumerate() {
+                    unsafe { to.add(i).write(value) };
+                }
             }
         }
         let corners = all.iter().flat_map(|l| l.first.into_iter().chain(l.last));
         unsafe {
-            each(ids, all.iter().map(|l| l.label).collect(), "ids")?;
-            each(cells, all.iter().map(|l| l.cells).collect(), "cells")?;
-            each(boxes, corners.map(|v| v as u64).collect(), "boxes")?;
-            each(touches_border, all.iter().map(|l| l.touches_border.into()).collect(), "flags")
+            each(ids, all.iter().map(|l| l.label));
+            each(cells, all.iter().map(|l| l.cells));
+            each(boxes, corners.map(|v| v as u64));
+            each(touches_border, all.iter().map(|l| l.touches_border.into()));
         }
+        Ok(())
     })
 }
