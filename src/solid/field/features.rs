@@ -19,27 +19,29 @@ pub(super) const LANES: usize = 8;
 pub(super) type Lanes = [f32; LANES];
 /// Some points, axis by axis.
 pub(super) type Points = [Lanes; 3];
-/// A half-space `n·x + o ≥ 0`, n of unit length.
-type Plane = [f32; 4];
+/// A half-space `n·x + o ≥ 0`, n of unit length, with `|n₀| + |n₁| + |n₂|`.
+type Plane = [f32; 5];
 /// A half-space that holds everything.
-const ALL: Plane = [0.0, 0.0, 0.0, 1e9];
+const ALL: Plane = [0.0, 0.0, 0.0, 1e9, 0.0];
 /// Half-spaces of a corner's region.
 const AWAY: usize = 6;
 /// No distance.
 pub(super) const FAR: f32 = 1e15;
 /// Points this far out of a region count as in it (in cells): more than the rounding of
 /// coordinates up to 4096 in f32, less than anyone sees.
-const SLACK: f32 = 1e-3;
+pub(super) const SLACK: f32 = 1e-3;
 
 /// What can be nearest. All of it is written lane by lane, for the compiler's vectors.
 pub(super) trait Feature {
-    /// Of each point, how deep it lies in the region's worst half-space; less than 0 is out.
-    /// With `half`, as deep as any point of a brick of these half extents about it may lie.
-    /// And an estimate of the squared distance.
-    fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes);
-    /// A convex function that is the distance within the region and nowhere more than it, and
-    /// its gradient.
-    fn tangent(&self, x: &Points) -> (Lanes, Points);
+    /// Of each point, how deep any point of a brick of this half extent about it may lie in the
+    /// region's worst half-space (less than 0: the brick misses the region); and a squared
+    /// distance that this feature is not nearer than.
+    fn region(&self, x: &Points, half: f32) -> (Lanes, Lanes);
+    /// Bits of the points about which such a brick may touch the region.
+    #[inline(always)]
+    fn touches(&self, x: &Points, half: f32) -> u8 {
+        bits(&self.region(x, half).0)
+    }
     /// Lowers `best`, squared distances, where this feature is nearer.
     fn nearer(&self, x: &Points, best: &mut Lanes);
 }
@@ -49,15 +51,20 @@ fn height(p: &Plane, x: &Points, k: usize) -> f32 {
     (p[0] * x[0][k] + p[1] * x[1][k]) + (p[2] * x[2][k] + p[3])
 }
 
-#[inline(always)]
-fn reach(n: &[f32], half: &[f32; 3]) -> f32 {
-    n[0].abs() * half[0] + n[1].abs() * half[1] + n[2].abs() * half[2] + SLACK
-}
-
 /// As `f32::min` without its care for NaN, which there is none of.
 #[inline(always)]
-fn least(a: f32, b: f32) -> f32 {
+pub(super) fn least(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
+}
+
+/// Bits of the lanes that are not negative.
+#[inline(always)]
+pub(super) fn bits(lanes: &Lanes) -> u8 {
+    let mut bits = 0;
+    for k in 0..LANES {
+        bits |= u8::from(lanes[k] >= 0.0) << k;
+    }
+    bits
 }
 
 /// A face: height over its plane and the prism's sides.
@@ -69,10 +76,10 @@ pub(super) struct Face {
 
 impl Feature for Face {
     #[inline(always)]
-    fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes) {
+    fn region(&self, x: &Points, half: f32) -> (Lanes, Lanes) {
         let (mut touch, mut score) = ([0.0; LANES], [0.0; LANES]);
         let [a, b, c] = &self.sides;
-        let reach = [reach(a, half), reach(b, half), reach(c, half)];
+        let reach = [a[4] * half + SLACK, b[4] * half + SLACK, c[4] * half + SLACK];
         for k in 0..LANES {
             let (ha, hb, hc) = (height(a, x, k), height(b, x, k), height(c, x, k));
             touch[k] = least(least(ha + reach[0], hb + reach[1]), hc + reach[2]);
@@ -81,20 +88,6 @@ impl Feature for Face {
             score[k] = h * h + out * out;
         }
         (touch, score)
-    }
-
-    #[inline(always)]
-    fn tangent(&self, x: &Points) -> (Lanes, Points) {
-        let (mut level, mut slope) = ([0.0; LANES], [[0.0; LANES]; 3]);
-        for k in 0..LANES {
-            let h = height(&self.plane, x, k);
-            let sign = if h < 0.0 { -1.0 } else { 1.0 };
-            level[k] = h * sign;
-            slope[0][k] = self.plane[0] * sign;
-            slope[1][k] = self.plane[1] * sign;
-            slope[2][k] = self.plane[2] * sign;
-        }
-        (level, slope)
     }
 
     #[inline(always)]
@@ -115,43 +108,32 @@ pub(super) struct Edge {
     start: [f32; 3],
     along: [f32; 3],
     length: f32,
+    /// Sum of the absolute parts of `along`.
+    spread: f32,
     /// Beyond the sides of two faces, and what follows from both: in front of the edge.
     beyond: [Plane; 3],
 }
 
 impl Feature for Edge {
     #[inline(always)]
-    fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes) {
+    fn region(&self, x: &Points, half: f32) -> (Lanes, Lanes) {
         let (mut touch, mut score) = ([0.0; LANES], [0.0; LANES]);
         let (s, e) = (&self.start, &self.along);
         let [a, b, c] = &self.beyond;
-        let reach = [reach(a, half), reach(b, half), reach(c, half), reach(e, half)];
+        let reach = [a[4] * half + SLACK, b[4] * half + SLACK, c[4] * half + SLACK];
+        let ends = self.spread * half + SLACK;
         for k in 0..LANES {
             let (dx, dy, dz) = (x[0][k] - s[0], x[1][k] - s[1], x[2][k] - s[2]);
             let t = dx * e[0] + dy * e[1] + dz * e[2];
             let within = least(t, self.length - t);
             let (ha, hb, hc) = (height(a, x, k), height(b, x, k), height(c, x, k));
             let beyond = least(least(ha + reach[0], hb + reach[1]), hc + reach[2]);
-            touch[k] = least(beyond, within + reach[3]);
+            touch[k] = least(beyond, within + ends);
             let (rx, ry, rz) = (dx - t * e[0], dy - t * e[1], dz - t * e[2]);
             let out = least(within, 0.0);
             score[k] = (rx * rx + ry * ry + rz * rz) + out * out;
         }
         (touch, score)
-    }
-
-    #[inline(always)]
-    fn tangent(&self, x: &Points) -> (Lanes, Points) {
-        let mut r = [[0.0; LANES]; 3];
-        let (s, e) = (&self.start, &self.along);
-        for k in 0..LANES {
-            let (dx, dy, dz) = (x[0][k] - s[0], x[1][k] - s[1], x[2][k] - s[2]);
-            let t = dx * e[0] + dy * e[1] + dz * e[2];
-            r[0][k] = dx - t * e[0];
-            r[1][k] = dy - t * e[1];
-            r[2][k] = dz - t * e[2];
-        }
-        unit(r)
     }
 
     #[inline(always)]
@@ -167,32 +149,17 @@ impl Feature for Edge {
     }
 }
 
-/// Lengths and directions; where the length is nearly none, none and no direction.
-#[inline(always)]
-fn unit(r: Points) -> (Lanes, Points) {
-    let (mut level, mut slope) = ([0.0; LANES], r);
-    for k in 0..LANES {
-        let d2 = r[0][k] * r[0][k] + r[1][k] * r[1][k] + r[2][k] * r[2][k];
-        let safe = if d2 > 1e-8 { d2 } else { 1e-8 };
-        let inverse = (if d2 > 1e-8 { 1.0 } else { 0.0 }) / safe.sqrt();
-        level[k] = d2 * inverse;
-        slope[0][k] = r[0][k] * inverse;
-        slope[1][k] = r[1][k] * inverse;
-        slope[2][k] = r[2][k] * inverse;
-    }
-    (level, slope)
-}
-
 /// A corner and the directions of edges from it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
     at: [f32; 3],
-    away: [[f32; 3]; AWAY],
+    /// Unit vectors, each with the sum of its absolute parts.
+    away: [[f32; 4]; AWAY],
 }
 
 impl Feature for Corner {
     #[inline(always)]
-    fn region(&self, x: &Points, half: &[f32; 3]) -> (Lanes, Lanes) {
+    fn region(&self, x: &Points, half: f32) -> (Lanes, Lanes) {
         let (mut touch, mut score) = ([FAR; LANES], [0.0; LANES]);
         let mut r = [[0.0; LANES]; 3];
         for k in 0..LANES {
@@ -202,24 +169,13 @@ impl Feature for Corner {
             score[k] = r[0][k] * r[0][k] + r[1][k] * r[1][k] + r[2][k] * r[2][k];
         }
         for n in &self.away {
-            let reach = reach(n, half);
+            let reach = n[3] * half + SLACK;
             for k in 0..LANES {
                 let h = n[0] * r[0][k] + n[1] * r[1][k] + n[2] * r[2][k];
                 touch[k] = least(h + reach, touch[k]);
             }
         }
         (touch, score)
-    }
-
-    #[inline(always)]
-    fn tangent(&self, x: &Points) -> (Lanes, Points) {
-        let mut r = [[0.0; LANES]; 3];
-        for k in 0..LANES {
-            r[0][k] = x[0][k] - self.at[0];
-            r[1][k] = x[1][k] - self.at[1];
-            r[2][k] = x[2][k] - self.at[2];
-        }
-        unit(r)
     }
 
     #[inline(always)]
@@ -298,8 +254,13 @@ impl Features {
                 ends.push((group[0].ends, along));
                 let sides = [group[0].away, group.get(1).and_then(|s| s.away)];
                 if let Some(beyond) = beyond(&sides, &a) {
-                    let (start, along) = (single(&a), single(&along));
-                    edges.push(Edge { start, along, length: length as f32, beyond });
+                    edges.push(Edge {
+                        start: single(&a),
+                        along: single(&along),
+                        length: length as f32,
+                        spread: along.lp_norm(1) as f32,
+                        beyond,
+                    });
                 }
             }
         }
@@ -345,13 +306,18 @@ pub(super) fn single(v: &Vec3) -> [f32; 3] {
     [v.x as f32, v.y as f32, v.z as f32]
 }
 
+/// With the sum of the absolute parts.
+fn spread(v: &Vec3) -> [f32; 4] {
+    [v.x as f32, v.y as f32, v.z as f32, v.lp_norm(1) as f32]
+}
+
 fn double(v: &[f32; 3]) -> Vec3 {
     Vec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
 }
 
 /// The half-space through `v` on the side of the unit vector `n`.
 fn plane(n: &Vec3, v: &Vec3) -> Plane {
-    [n.x as f32, n.y as f32, n.z as f32, -n.dot(v) as f32]
+    [n.x as f32, n.y as f32, n.z as f32, -n.dot(v) as f32, n.lp_norm(1) as f32]
 }
 
 /// A face and the unit vectors away from its sides. One without area has no prism (its edges
@@ -360,7 +326,7 @@ fn face(t: &[Vec3; 3]) -> (Face, [Option<Vec3>; 3]) {
     let edges = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let longest2 = edges.iter().map(|e| e.norm_squared()).fold(0.0, f64::max);
     let cross = edges[0].cross(&edges[1]);
-    const NONE: Plane = [0.0, 0.0, 0.0, -FAR];
+    const NONE: Plane = [0.0, 0.0, 0.0, -FAR, 0.0];
     if longest2 < 1e-200 || cross.norm_squared() <= 1e-24 * longest2 * longest2 {
         return (Face { plane: NONE, sides: [NONE; 3] }, [None; 3]);
     }
@@ -401,13 +367,13 @@ fn corners(
         let edges = &list[range[0] as usize..range[1] as usize];
         if let Some(first) = edges.first() {
             // Evenly among them, in the order of the other ends.
-            let mut away: [[f32; 3]; AWAY] = std::array::from_fn(|k| {
-                single(edges.get(k * edges.len() / (AWAY - 1).min(edges.len())).unwrap_or(first))
+            let mut away: [[f32; 4]; AWAY] = std::array::from_fn(|k| {
+                spread(edges.get(k * edges.len() / (AWAY - 1).min(edges.len())).unwrap_or(first))
             });
             // And what follows from all: behind along their sum.
             let sum = edges.iter().fold(Vec3::zeros(), |s, e| s + e);
             if sum.norm() > 1e-6 {
-                away[AWAY - 1] = single(&sum.normalize());
+                away[AWAY - 1] = spread(&sum.normalize());
             }
             corners.push(Corner { at: single(&local(&mesh.vertices[v])), away });
         }
