@@ -1,7 +1,8 @@
 //! What MSS costs on the two benchmarks of its paper, in CPU time on one thread and in bytes a
 //! voxel, beside the reference implementation (the PyPI package `multisphere`) on the same
 //! voxels in the same run, when `MORULA_PEER_PYTHON` names a Python that has it. The
-//! femur needs `MORULA_DATA`.
+//! femur needs `MORULA_DATA`, and is then the peer's own grid, on which the paper's
+//! figures stand; without the peer it is ours.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
@@ -43,19 +44,40 @@ fn ellipsoid() -> Voxels {
     Voxels { name: "ellipsoid", spheres: 10, dims, mask }
 }
 
+const GRID: &str = "
+import contextlib, io, sys
+import numpy as np
+import multisphere as mss
+from multisphere.multisphere_io import _mesh_to_voxel_grid
+with contextlib.redirect_stdout(io.StringIO()):
+    grid = _mesh_to_voxel_grid(mss.load_mesh(sys.argv[1]), div=102, padding=2)
+print(*grid.data.shape)
+np.asfortranarray(grid.data.astype(np.uint8)).T.tofile(sys.argv[2])
+";
+
 /// The femur with 102 cells on its shortest side.
 fn femur() -> Option<Voxels> {
     let data = std::env::var("MORULA_DATA").ok()?;
     let path = Path::new(&data).join("benchmark/femur.stl");
+    if let Ok(python) = std::env::var("MORULA_PEER_PYTHON") {
+        let raw = std::env::temp_dir().join(format!("morula-grid-{}.raw", std::process::id()));
+        let out = Command::new(python).args(["-c", GRID]).args([&path, &raw]).output().ok()?;
+        let mask = std::fs::read(&raw);
+        let text = String::from_utf8(out.stdout).ok()?;
+        let dims: Vec<usize> = text.split_whitespace().filter_map(|n| n.parse().ok()).collect();
+        if let (Ok(mask), &[x, y, z]) = (mask, dims.as_slice()) {
+            std::fs::remove_file(&raw).unwrap();
+            return Some(Voxels { name: "femur", spheres: 70, dims: [x, y, z], mask });
+        }
+    }
     let run = Run::serial();
     let shape = Shape::from_file(&path, &FileOptions::default(), &run).ok()?;
-    let resolution = Resolution::CellsShortest(102);
-    let solid = Solid::new(
-        &shape,
-        &SolidOptions { resolution, padding: 2, ..SolidOptions::default() },
-        &run,
-    );
-    let solid = solid.unwrap();
+    let options = SolidOptions {
+        resolution: Resolution::CellsShortest(102),
+        padding: 2,
+        ..SolidOptions::default()
+    };
+    let solid = Solid::new(&shape, &options, &run).unwrap();
     let mask = solid.inside().to_vec();
     Some(Voxels { name: "femur", spheres: 70, dims: solid.grid().dims, mask })
 }

@@ -6,7 +6,7 @@
 use super::lattice::Lattice;
 use crate::run::Pool;
 
-/// Columns that are transformed together, so that whole cache lines are read.
+/// Columns that are transformed together, so that whole cache lines are read; a part of a word.
 const BLOCK: usize = 16;
 
 /// Writes into `out` the distance (not squared) from each set cell to the
@@ -24,6 +24,7 @@ pub(super) fn distance(
     if slab == 0 || nz == 0 {
         return;
     }
+    let word = |row: usize, w: usize| bits.get(lattice.words * row + w).copied().unwrap_or(0);
     pool.chunks_mut(out, slab, |k, slab| {
         let start = k * ny * lattice.words;
         let rows = bits.get(start..start + ny * lattice.words).unwrap_or(&[]);
@@ -32,7 +33,7 @@ pub(super) fn distance(
         }
         let mut work = Columns::new(ny, lattice.step[1]);
         let mut rows: Vec<&mut [f32]> = slab.chunks_exact_mut(nx).collect();
-        work.transform(&mut rows, most[0], false);
+        work.transform(&mut rows, most[0], false, |j, w| word(j + ny * k, w));
     });
     // The rows with the same j, across all slabs, belong together along z.
     let mut planes: Vec<Vec<&mut [f32]>> = (0..ny).map(|_| Vec::with_capacity(nz)).collect();
@@ -42,9 +43,10 @@ pub(super) fn distance(
         }
     }
     planes.truncate(most[1]);
-    pool.chunks_mut(&mut planes, 1, |_, plane| {
+    pool.chunks_mut(&mut planes, 1, |j, plane| {
         for rows in plane {
-            Columns::new(nz, lattice.step[2]).transform(rows, most[0], true);
+            let mut work = Columns::new(nz, lattice.step[2]);
+            work.transform(rows, most[0], true, |k, w| word(j + ny * k, w));
         }
     });
 }
@@ -106,21 +108,30 @@ impl Columns {
         }
     }
 
-    /// Transforms all columns across `rows`; takes the square root when this is the last axis.
-    fn transform(&mut self, rows: &mut [&mut [f32]], most: usize, last: bool) {
+    /// Transforms the columns across `rows` below `most`; takes the square root when this is
+    /// the last axis. `word(t, w)` is the word `w` of the bits of row `t`.
+    fn transform(
+        &mut self,
+        rows: &mut [&mut [f32]],
+        most: usize,
+        last: bool,
+        word: impl Fn(usize, usize) -> u64,
+    ) {
         let n = rows.len();
         let width = rows.first().map_or(0, |r| r.len()).min(most);
         for x0 in (0..width).step_by(BLOCK) {
+            // Only the rows between the first and the last set cell of the block.
+            let set = |t: &usize| word(*t, x0 / 64) >> (x0 % 64) & 0xffff != 0;
+            let (Some(first), Some(end)) = ((0..n).find(set), (0..n).rev().find(set)) else {
+                continue;
+            };
             let w = BLOCK.min(width - x0);
-            let mut any = false;
+            let Some(rows) = rows.get_mut(first..=end) else { continue };
+            let n = rows.len();
             for (t, row) in rows.iter().enumerate() {
                 for (b, &v) in row[x0..x0 + w].iter().enumerate() {
                     self.block[b * n + t] = v;
-                    any |= v > 0.0;
                 }
-            }
-            if !any {
-                continue;
             }
             for b in 0..w {
                 self.column(b * n, n);
