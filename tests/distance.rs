@@ -217,6 +217,7 @@ fn planes_of_voxels_are_exact() {
                     // Inside, and outside over a face: exact. (With unequal spacing, the nearest
                     // centre of the other side is that over the nearest face only if no other
                     // face is about as near: up to half the difference of the spacings off.)
+                    // Beyond edges and corners: up to a cell's half diagonal too far.
                     if depth > 0.0 {
                         let slack = if spacing[0] == spacing[2] { 1e-5 } else { 0.45 };
                         assert!((d + depth).abs() < slack, "{d} at depth {depth}");
@@ -224,7 +225,8 @@ fn planes_of_voxels_are_exact() {
                         assert!((d - outside.iter().sum::<f64>()).abs() < 1e-5);
                     } else {
                         let exact = outside.iter().map(|o| o * o).sum::<f64>().sqrt();
-                        assert!((d - exact).abs() < 0.3 * spacing[2], "{d} for {exact}");
+                        let half: f64 = spacing.iter().map(|s| s * s).sum::<f64>().sqrt() * 0.5;
+                        assert!((d - exact).abs() < half, "{d} for {exact}");
                     }
                 }
             }
@@ -232,11 +234,9 @@ fn planes_of_voxels_are_exact() {
     }
 }
 
-/// Against the ideal ball. Over curved or oblique surfaces the nearest centre of the other side
-/// lies at the surface itself, not half a cell beyond it: the field lies between half a cell too
-/// low and a little too high in size.
+/// Against the ideal ball: next to no bias inside, where spheres take their radii from.
 #[test]
-fn balls_of_voxels_are_within_half_a_cell() {
+fn balls_of_voxels_are_nearly_unbiased() {
     let run = Run::serial();
     for radius in [4.0, 8.0, 16.0, 32.0] {
         let shape = voxel_ball(radius, [1.0; 3]).unwrap();
@@ -265,7 +265,8 @@ fn balls_of_voxels_are_within_half_a_cell() {
                 "ball of {radius} cells, {}: bias {bias:.3}, rms {rms:.3}, worst {worst:.3}",
                 ["inside", "outside"][side]
             );
+            assert!(bias.abs() < [0.05, 0.2][side] && rms < 0.25);
         }
-        assert!(worst < 0.9, "{worst}");
+        assert!(worst < 0.75, "{worst}");
     }
 }

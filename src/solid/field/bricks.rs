@@ -86,6 +86,21 @@ impl Space {
         let half = Vec3::from_fn(|a, _| 0.5 * b.size()[a].saturating_sub(1) as f64);
         (c.component_mul(&self.spacing), half.component_mul(&self.spacing))
     }
+
+    /// The middles of the eight parts of a brick.
+    fn middles(&self, parts: &[Brick; 8]) -> Points {
+        let (low, _) = self.middle(&parts[0]);
+        let (high, _) = self.middle(&parts[7]);
+        Points::new(std::array::from_fn(|a| [low[a], high[a]]))
+    }
+
+    /// The centres of a group of at most 2³ cells; absent ones are copies of present ones.
+    fn centers(&self, group: &Brick) -> Points {
+        let at = |i: usize, a: usize| (i as f64 + 0.5) * self.spacing[a];
+        Points::new(std::array::from_fn(|a| {
+            [at(group.lo[a], a), at(group.hi[a].saturating_sub(1).max(group.lo[a]), a)]
+        }))
+    }
 }
 
 /// Writes the unsigned distances at all cell centres.
@@ -206,7 +221,7 @@ fn split(
     lists: &mut [Candidates; 8],
 ) -> Result<[Vec3; 8]> {
     let mut p = Parts {
-        middle: [[0.0; LANES]; 3],
+        middle: space.middles(parts),
         reach: 0.0,
         limit: [-1.0; LANES],
         there: 0,
@@ -220,7 +235,6 @@ fn split(
         if !part.is_empty() {
             let (c, half) = space.middle(part);
             p.there |= 1 << k;
-            (0..3).for_each(|a| p.middle[a][k] = c[a] as f32);
             p.reach = p.reach.max(half.max() as f32);
             let limit = (c - witness).norm() + 2.0 * half.norm() + f64::from(features::SLACK);
             p.limit[k] = (limit * limit) as f32;
@@ -299,26 +313,20 @@ struct Cells {
 
 impl Cells {
     fn new(space: &Space, brick: &Brick) -> Cells {
+        let parts = brick.parts();
         let mut c = Cells {
-            parts: brick.parts(),
             there: 0,
-            middle: [[0.0; LANES]; 3],
+            middle: space.middles(&parts),
             reach: 0.0,
-            at: [[[0.0; LANES]; 3]; 8],
+            at: [Points::default(); 8],
             best: [[FAR; LANES]; 8],
+            parts,
         };
-        for (g, part) in c.parts.iter().enumerate() {
-            if part.is_empty() {
-                continue;
-            }
-            let (middle, half) = space.middle(part);
-            c.there |= 1 << g;
-            c.reach = c.reach.max(half.max() as f32);
-            for a in 0..3 {
-                c.middle[a][g] = middle[a] as f32;
-                for k in 0..LANES {
-                    c.at[g][a][k] = ((cell(part, k)[a] as f64 + 0.5) * space.spacing[a]) as f32;
-                }
+        for (g, part) in parts.iter().enumerate() {
+            if !part.is_empty() {
+                c.there |= 1 << g;
+                c.reach = c.reach.max(space.middle(part).1.max() as f32);
+                c.at[g] = space.centers(part);
             }
         }
         c

@@ -17,8 +17,22 @@ use crate::solid::triangle;
 pub(super) const LANES: usize = 8;
 /// One number for each of some points.
 pub(super) type Lanes = [f32; LANES];
-/// Some points, axis by axis.
-pub(super) type Points = [Lanes; 3];
+/// The corners of a box, x fastest: what two places along each axis make.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Points {
+    /// x and y of the four points of each z.
+    xy: [[f32; 4]; 2],
+    z: [f32; 2],
+}
+
+impl Points {
+    /// From the two places along x, y and z.
+    pub(super) fn new(at: [[f64; 2]; 3]) -> Points {
+        let [x, y, z] = at.map(|a| a.map(|v| v as f32));
+        Points { xy: [[x[0], x[1], x[0], x[1]], [y[0], y[0], y[1], y[1]]], z }
+    }
+}
+
 /// A half-space `n·x + o ≥ 0`, n of unit length, with `|n₀| + |n₁| + |n₂|`.
 type Plane = [f32; 5];
 /// A half-space that holds everything.
@@ -46,9 +60,29 @@ pub(super) trait Feature {
     fn nearer(&self, x: &Points, best: &mut Lanes);
 }
 
+/// Heights over a plane; the part of x and y is shared.
 #[inline(always)]
-fn height(p: &Plane, x: &Points, k: usize) -> f32 {
-    (p[0] * x[0][k] + p[1] * x[1][k]) + (p[2] * x[2][k] + p[3])
+fn heights(p: &Plane, x: &Points) -> Lanes {
+    let (mut h, mut flat) = ([0.0; LANES], [0.0; 4]);
+    for j in 0..4 {
+        flat[j] = p[0] * x.xy[0][j] + p[1] * x.xy[1][j];
+    }
+    let (low, high) = (p[2] * x.z[0] + p[3], p[2] * x.z[1] + p[3]);
+    for j in 0..4 {
+        h[j] = flat[j] + low;
+    }
+    for j in 0..4 {
+        h[4 + j] = flat[j] + high;
+    }
+    h
+}
+
+/// Lane by lane, the lesser of `a` and `b + c`.
+#[inline(always)]
+fn lower(a: &mut Lanes, b: &Lanes, c: f32) {
+    for k in 0..LANES {
+        a[k] = least(a[k], b[k] + c);
+    }
 }
 
 /// As `f32::min` without its care for NaN, which there is none of.
@@ -77,26 +111,28 @@ pub(super) struct Face {
 impl Feature for Face {
     #[inline(always)]
     fn region(&self, x: &Points, half: f32) -> (Lanes, Lanes) {
-        let (mut touch, mut score) = ([0.0; LANES], [0.0; LANES]);
-        let [a, b, c] = &self.sides;
-        let reach = [a[4] * half + SLACK, b[4] * half + SLACK, c[4] * half + SLACK];
+        let (mut touch, mut out) = ([FAR; LANES], [0.0; LANES]);
+        for side in &self.sides {
+            let h = heights(side, x);
+            lower(&mut touch, &h, side[4] * half + SLACK);
+            lower(&mut out, &h, 0.0);
+        }
+        let mut score = heights(&self.plane, x);
         for k in 0..LANES {
-            let (ha, hb, hc) = (height(a, x, k), height(b, x, k), height(c, x, k));
-            touch[k] = least(least(ha + reach[0], hb + reach[1]), hc + reach[2]);
-            let out = least(least(least(ha, hb), hc), 0.0);
-            let h = height(&self.plane, x, k);
-            score[k] = h * h + out * out;
+            score[k] = score[k] * score[k] + out[k] * out[k];
         }
         (touch, score)
     }
 
     #[inline(always)]
     fn nearer(&self, x: &Points, best: &mut Lanes) {
-        let [a, b, c] = &self.sides;
+        let mut depth = [FAR; LANES];
+        for side in &self.sides {
+            lower(&mut depth, &heights(side, x), 0.0);
+        }
+        let h = heights(&self.plane, x);
         for k in 0..LANES {
-            let depth = least(least(height(a, x, k), height(b, x, k)), height(c, x, k));
-            let h = height(&self.plane, x, k);
-            let d = if depth >= -SLACK { h * h } else { FAR };
+            let d = if depth[k] >= -SLACK { h[k] * h[k] } else { FAR };
             best[k] = least(d, best[k]);
         }
     }
@@ -114,67 +150,71 @@ pub(super) struct Edge {
     beyond: [Plane; 3],
 }
 
+impl Edge {
+    /// Places along the edge, and the squared distance from the line, or from the segment.
+    #[inline(always)]
+    fn foot(&self, x: &Points, segment: bool) -> (Lanes, Lanes) {
+        let (s, e) = (&self.start, &self.along);
+        let (mut along, mut squared) = ([0.0; LANES], [0.0; LANES]);
+        let (mut dx, mut dy, mut flat) = ([0.0; 4], [0.0; 4], [0.0; 4]);
+        for j in 0..4 {
+            dx[j] = x.xy[0][j] - s[0];
+            dy[j] = x.xy[1][j] - s[1];
+            flat[j] = dx[j] * e[0] + dy[j] * e[1];
+        }
+        for k in 0..LANES {
+            let dz = x.z[k / 4] - s[2];
+            let t = flat[k % 4] + dz * e[2];
+            let f = if segment { least(if t > 0.0 { t } else { 0.0 }, self.length) } else { t };
+            let (rx, ry, rz) = (dx[k % 4] - f * e[0], dy[k % 4] - f * e[1], dz - f * e[2]);
+            along[k] = t;
+            squared[k] = rx * rx + ry * ry + rz * rz;
+        }
+        (along, squared)
+    }
+}
+
 impl Feature for Edge {
     #[inline(always)]
     fn region(&self, x: &Points, half: f32) -> (Lanes, Lanes) {
-        let (mut touch, mut score) = ([0.0; LANES], [0.0; LANES]);
-        let (s, e) = (&self.start, &self.along);
-        let [a, b, c] = &self.beyond;
-        let reach = [a[4] * half + SLACK, b[4] * half + SLACK, c[4] * half + SLACK];
+        let mut touch = [FAR; LANES];
+        for side in &self.beyond {
+            lower(&mut touch, &heights(side, x), side[4] * half + SLACK);
+        }
         let ends = self.spread * half + SLACK;
+        let (t, mut score) = self.foot(x, false);
         for k in 0..LANES {
-            let (dx, dy, dz) = (x[0][k] - s[0], x[1][k] - s[1], x[2][k] - s[2]);
-            let t = dx * e[0] + dy * e[1] + dz * e[2];
-            let within = least(t, self.length - t);
-            let (ha, hb, hc) = (height(a, x, k), height(b, x, k), height(c, x, k));
-            let beyond = least(least(ha + reach[0], hb + reach[1]), hc + reach[2]);
-            touch[k] = least(beyond, within + ends);
-            let (rx, ry, rz) = (dx - t * e[0], dy - t * e[1], dz - t * e[2]);
+            let within = least(t[k], self.length - t[k]);
+            touch[k] = least(touch[k], within + ends);
             let out = least(within, 0.0);
-            score[k] = (rx * rx + ry * ry + rz * rz) + out * out;
+            score[k] += out * out;
         }
         (touch, score)
     }
 
     #[inline(always)]
     fn nearer(&self, x: &Points, best: &mut Lanes) {
-        let (s, e) = (&self.start, &self.along);
-        for k in 0..LANES {
-            let (dx, dy, dz) = (x[0][k] - s[0], x[1][k] - s[1], x[2][k] - s[2]);
-            let t = dx * e[0] + dy * e[1] + dz * e[2];
-            let t = least(if t > 0.0 { t } else { 0.0 }, self.length);
-            let (rx, ry, rz) = (dx - t * e[0], dy - t * e[1], dz - t * e[2]);
-            best[k] = least(rx * rx + ry * ry + rz * rz, best[k]);
-        }
+        let (_, squared) = self.foot(x, true);
+        lower(best, &squared, 0.0);
     }
 }
 
-/// A corner and the directions of edges from it.
+/// A corner, and half-spaces behind it along edges from it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Corner {
     at: [f32; 3],
-    /// Unit vectors, each with the sum of its absolute parts.
-    away: [[f32; 4]; AWAY],
+    away: [Plane; AWAY],
 }
 
 impl Feature for Corner {
     #[inline(always)]
     fn region(&self, x: &Points, half: f32) -> (Lanes, Lanes) {
-        let (mut touch, mut score) = ([FAR; LANES], [0.0; LANES]);
-        let mut r = [[0.0; LANES]; 3];
-        for k in 0..LANES {
-            r[0][k] = self.at[0] - x[0][k];
-            r[1][k] = self.at[1] - x[1][k];
-            r[2][k] = self.at[2] - x[2][k];
-            score[k] = r[0][k] * r[0][k] + r[1][k] * r[1][k] + r[2][k] * r[2][k];
-        }
+        let mut touch = [FAR; LANES];
         for n in &self.away {
-            let reach = n[3] * half + SLACK;
-            for k in 0..LANES {
-                let h = n[0] * r[0][k] + n[1] * r[1][k] + n[2] * r[2][k];
-                touch[k] = least(h + reach, touch[k]);
-            }
+            lower(&mut touch, &heights(n, x), n[4] * half + SLACK);
         }
+        let mut score = [FAR; LANES];
+        nearer_point(&self.at, x, &mut score);
         (touch, score)
     }
 
@@ -187,9 +227,14 @@ impl Feature for Corner {
 /// Lowers `best`, squared distances, where the point `p` is nearer.
 #[inline(always)]
 pub(super) fn nearer_point(p: &[f32; 3], x: &Points, best: &mut Lanes) {
+    let mut flat = [0.0; 4];
+    for j in 0..4 {
+        let (dx, dy) = (x.xy[0][j] - p[0], x.xy[1][j] - p[1]);
+        flat[j] = dx * dx + dy * dy;
+    }
     for k in 0..LANES {
-        let (dx, dy, dz) = (x[0][k] - p[0], x[1][k] - p[1], x[2][k] - p[2]);
-        best[k] = least(dx * dx + dy * dy + dz * dz, best[k]);
+        let dz = x.z[k / 4] - p[2];
+        best[k] = least(flat[k % 4] + dz * dz, best[k]);
     }
 }
 
@@ -306,11 +351,6 @@ pub(super) fn single(v: &Vec3) -> [f32; 3] {
     [v.x as f32, v.y as f32, v.z as f32]
 }
 
-/// With the sum of the absolute parts.
-fn spread(v: &Vec3) -> [f32; 4] {
-    [v.x as f32, v.y as f32, v.z as f32, v.lp_norm(1) as f32]
-}
-
 fn double(v: &[f32; 3]) -> Vec3 {
     Vec3::new(f64::from(v[0]), f64::from(v[1]), f64::from(v[2]))
 }
@@ -367,15 +407,17 @@ fn corners(
         let edges = &list[range[0] as usize..range[1] as usize];
         if let Some(first) = edges.first() {
             // Evenly among them, in the order of the other ends.
-            let mut away: [[f32; 4]; AWAY] = std::array::from_fn(|k| {
-                spread(edges.get(k * edges.len() / (AWAY - 1).min(edges.len())).unwrap_or(first))
+            let at = local(&mesh.vertices[v]);
+            let mut away: [Plane; AWAY] = std::array::from_fn(|k| {
+                let i = k * edges.len() / (AWAY - 1).min(edges.len());
+                plane(&-edges.get(i).unwrap_or(first), &at)
             });
             // And what follows from all: behind along their sum.
             let sum = edges.iter().fold(Vec3::zeros(), |s, e| s + e);
             if sum.norm() > 1e-6 {
-                away[AWAY - 1] = spread(&sum.normalize());
+                away[AWAY - 1] = plane(&-sum.normalize(), &at);
             }
-            corners.push(Corner { at: single(&local(&mesh.vertices[v])), away });
+            corners.push(Corner { at: single(&at), away });
         }
     }
     Ok(corners)
