@@ -2,12 +2,13 @@
 //! from the whole grid down to 4³ cells.
 //!
 //! Each brick has the features (faces, edges, corners) that may be nearest somewhere in
-//! it, and a witness: a point w of the surface near its middle c. A feature is not handed
-//! on to a part of the brick when its region (see [`super::features`]) misses the part, or
-//! when the witness is nearer everywhere in the part: with ρ the part's half diagonal, the
-//! feature is no nearer than `d(c) − ρ` and the witness no farther than `|c − w| + ρ`. Nothing
-//! that is nearest anywhere is ever dropped, so the distances are exact up to the rounding of
-//! f32 (and [`features::SLACK`], where regions meet).
+//! it, and a witness: a point w of the surface near its middle. A feature is not handed on
+//! to a part of the brick when its region (see [`super::features`]) misses the part, or when
+//! the part's witness is nearer everywhere in the part. The squared distances to a plane, to
+//! a line and to a point are all |x|² plus a concave function of x, and so is |x − w|² with a
+//! linear one: their difference is concave, and least at a corner of the part. So eight
+//! points decide, exactly. Nothing that is nearest anywhere is ever dropped: the distances
+//! are right up to the rounding of f32 (and [`features::SLACK`], where regions meet).
 
 use super::features::{self, FAR, Feature, Features, LANES, Lanes, Points};
 use crate::error::{Error, Result, filled, reserve};
@@ -138,12 +139,12 @@ fn descend(
 ) -> Result<()> {
     run.check(0.0, "making the distance field")?;
     let parts = brick.parts();
-    let mut lists = <[Candidates; 8]>::default();
+    let mut lists = Lists::default();
     let witnesses = split(space, &parts, candidates, witness, &mut lists)?;
     if brick.longest() > 2 * SHARE {
         for (k, part) in parts.iter().enumerate() {
             if !part.is_empty() {
-                descend(space, part, &lists[k], &witnesses[k], grid, run, out)?;
+                descend(space, part, &lists.parts[k], &witnesses[k], grid, run, out)?;
             }
         }
         return Ok(());
@@ -155,8 +156,8 @@ fn descend(
         }
         let size = part.size().iter().product();
         let mut block = filled("a block of the distance field", size, 0.0)?;
-        let mut work: Vec<[Candidates; 8]> = (0..DEPTH).map(|_| Default::default()).collect();
-        fill(space, part, &lists[k], &witnesses[k], part, &mut work, &mut block)?;
+        let mut work: Vec<Lists> = (0..DEPTH).map(|_| Lists::default()).collect();
+        fill(space, part, &lists.parts[k], &witnesses[k], part, &mut work, &mut block)?;
         Ok(block)
     });
     for (part, block) in parts.iter().zip(blocks) {
@@ -177,7 +178,7 @@ fn fill(
     candidates: &Candidates,
     witness: &Vec3,
     block: &Brick,
-    work: &mut [[Candidates; 8]],
+    work: &mut [Lists],
     out: &mut [f32],
 ) -> Result<()> {
     if brick.longest() <= 4 {
@@ -191,10 +192,18 @@ fn fill(
     let witnesses = split(space, &parts, candidates, witness, lists)?;
     for (k, part) in parts.iter().enumerate() {
         if !part.is_empty() {
-            fill(space, part, &lists[k], &witnesses[k], block, work, out)?;
+            fill(space, part, &lists.parts[k], &witnesses[k], block, work, out)?;
         }
     }
     Ok(())
+}
+
+/// The candidates of a brick's parts, and for each candidate of the brick the parts that its
+/// region touches.
+#[derive(Debug, Default)]
+struct Lists {
+    parts: [Candidates; 8],
+    marks: Vec<u8>,
 }
 
 /// The parts of a brick, lane by lane.
@@ -202,14 +211,15 @@ struct Parts {
     middle: Points,
     /// Greatest half extent of any.
     reach: f32,
-    /// Squared distance from the middle beyond which the witness is nearer everywhere.
-    limit: Lanes,
     /// Bits of the parts that are not empty.
     there: u8,
     /// The candidate nearest to each middle, as far as an estimate of its squared distance tells:
     /// three times its index, and 0, 1, 2 for a face, an edge, a corner.
     score: Lanes,
     name: [u32; LANES],
+    /// The corners of each part (cell centres), and their squared distances from its witness.
+    corners: [Points; 8],
+    limit: [Lanes; 8],
 }
 
 /// Hands the candidates of a brick to its parts; returns their witnesses.
@@ -218,85 +228,118 @@ fn split(
     parts: &[Brick; 8],
     candidates: &Candidates,
     witness: &Vec3,
-    lists: &mut [Candidates; 8],
+    lists: &mut Lists,
 ) -> Result<[Vec3; 8]> {
     let mut p = Parts {
         middle: space.middles(parts),
         reach: 0.0,
-        limit: [-1.0; LANES],
         there: 0,
         score: [FAR; LANES],
         name: [u32::MAX; LANES],
+        corners: [Points::default(); 8],
+        limit: [[FAR; LANES]; 8],
     };
     for (k, part) in parts.iter().enumerate() {
-        lists[k].faces.clear();
-        lists[k].edges.clear();
-        lists[k].corners.clear();
         if !part.is_empty() {
-            let (c, half) = space.middle(part);
             p.there |= 1 << k;
-            p.reach = p.reach.max(half.max() as f32);
-            let limit = (c - witness).norm() + 2.0 * half.norm() + f64::from(features::SLACK);
-            p.limit[k] = (limit * limit) as f32;
+            p.reach = p.reach.max(space.middle(part).1.max() as f32);
         }
     }
     let f = &space.features;
-    hand_on(&f.faces, &candidates.faces, 0, &mut p, lists, |c| &mut c.faces)?;
-    hand_on(&f.edges, &candidates.edges, 1, &mut p, lists, |c| &mut c.edges)?;
-    hand_on(&f.corners, &candidates.corners, 2, &mut p, lists, |c| &mut c.corners)?;
+    lists.marks.clear();
+    touch(&f.faces, &candidates.faces, 0, &mut p, &mut lists.marks)?;
+    touch(&f.edges, &candidates.edges, 1, &mut p, &mut lists.marks)?;
+    touch(&f.corners, &candidates.corners, 2, &mut p, &mut lists.marks)?;
     let mut witnesses = [*witness; 8];
     for (k, part) in parts.iter().enumerate() {
-        if p.there >> k & 1 == 1 && p.name[k] != u32::MAX {
-            let (c, _) = space.middle(part);
-            let q = match (p.name[k] / 3, p.name[k] % 3) {
-                (i, 0) => f.on_face(i, &c),
-                (i, 1) => f.on_edge(i, &c),
-                (i, _) => f.on_corner(i),
-            };
-            if (q - c).norm_squared() < (witness - c).norm_squared() {
-                witnesses[k] = q;
-            }
+        lists.parts[k].faces.clear();
+        lists.parts[k].edges.clear();
+        lists.parts[k].corners.clear();
+        if p.there >> k & 1 == 0 {
+            continue;
+        }
+        let (c, _) = space.middle(part);
+        let q = match (p.name[k] / 3, p.name[k] % 3) {
+            _ if p.name[k] == u32::MAX => *witness,
+            (i, 0) => f.on_face(i, &c),
+            (i, 1) => f.on_edge(i, &c),
+            (i, _) => f.on_corner(i),
+        };
+        if (q - c).norm_squared() < (witness - c).norm_squared() {
+            witnesses[k] = q;
+        }
+        p.corners[k] = space.centers(part);
+        features::nearer_point(&features::single(&witnesses[k]), &p.corners[k], &mut p.limit[k]);
+        for limit in &mut p.limit[k] {
+            let d = limit.sqrt() + features::SLACK;
+            *limit = d * d;
         }
     }
+    let (faces, marks) = lists.marks.split_at(candidates.faces.len());
+    let (edges, corners) = marks.split_at(candidates.edges.len());
+    hand_on(&f.faces, &candidates.faces, faces, &p, &mut lists.parts, |c| &mut c.faces)?;
+    hand_on(&f.edges, &candidates.edges, edges, &p, &mut lists.parts, |c| &mut c.edges)?;
+    hand_on(&f.corners, &candidates.corners, corners, &p, &mut lists.parts, |c| &mut c.corners)?;
     Ok(witnesses)
 }
 
-/// Hands candidates of one kind on to the parts where they may be nearest.
+/// Marks the parts that the regions of candidates of one kind touch, and finds the nearest.
 #[inline(never)]
-fn hand_on<F: Feature>(
+fn touch<F: Feature>(
     features: &[F],
     candidates: &[u32],
     kind: u32,
     p: &mut Parts,
-    lists: &mut [Candidates; 8],
-    list: impl Fn(&mut Candidates) -> &mut Vec<u32>,
+    marks: &mut Vec<u8>,
 ) -> Result<()> {
+    marks.try_reserve(candidates.len()).map_err(|_| out_of_memory())?;
     for &i in candidates {
         let (touch, score) = features[i as usize].region(&p.middle, p.reach);
         let name = i * 3 + kind;
-        let (mut keep, mut here) = (0, [0.0; LANES]);
         for k in 0..LANES {
-            here[k] = if touch[k] >= 0.0 { score[k] } else { FAR };
+            let here = if touch[k] >= 0.0 { score[k] } else { FAR };
+            p.name[k] = if here < p.score[k] { name } else { p.name[k] };
+            p.score[k] = features::least(here, p.score[k]);
         }
-        for k in 0..LANES {
-            p.name[k] = if here[k] < p.score[k] { name } else { p.name[k] };
-            p.score[k] = features::least(here[k], p.score[k]);
-        }
-        for k in 0..LANES {
-            keep |= u8::from(here[k] <= p.limit[k]) << k;
-        }
-        keep &= p.there;
-        while keep != 0 {
-            let k = keep.trailing_zeros() as usize;
-            keep &= keep - 1;
+        marks.push(features::bits(&touch) & p.there);
+    }
+    Ok(())
+}
+
+/// Hands candidates of one kind on to the parts that they touch and may be nearest in.
+#[inline(never)]
+fn hand_on<F: Feature>(
+    features: &[F],
+    candidates: &[u32],
+    marks: &[u8],
+    p: &Parts,
+    lists: &mut [Candidates; 8],
+    list: impl Fn(&mut Candidates) -> &mut Vec<u32>,
+) -> Result<()> {
+    for (&i, &mark) in candidates.iter().zip(marks) {
+        let mut mark = mark;
+        while mark != 0 {
+            let k = mark.trailing_zeros() as usize;
+            mark &= mark - 1;
+            let mut margin = features[i as usize].bound(&p.corners[k]);
+            for (m, limit) in margin.iter_mut().zip(&p.limit[k]) {
+                *m = limit - *m;
+            }
+            if features::bits(&margin) == 0 {
+                continue;
+            }
             let to = list(&mut lists[k]);
-            if to.len() == to.capacity() && to.try_reserve(to.len().max(64)).is_err() {
-                return Err(Error::OutOfMemory("no memory for the candidates of a brick".into()));
+            if to.len() == to.capacity() {
+                to.try_reserve(to.len().max(64)).map_err(|_| out_of_memory())?;
             }
             to.push(i);
         }
     }
     Ok(())
+}
+
+fn out_of_memory() -> Error {
+    Error::OutOfMemory("no memory for the candidates of a brick".into())
 }
 
 /// At most 4³ cells, in eight groups of at most 2³.

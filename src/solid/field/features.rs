@@ -56,6 +56,8 @@ pub(super) trait Feature {
     fn touches(&self, x: &Points, half: f32) -> u8 {
         bits(&self.region(x, half).0)
     }
+    /// Squared distances from the plane, line or point that the feature lies on.
+    fn bound(&self, x: &Points) -> Lanes;
     /// Lowers `best`, squared distances, where this feature is nearer.
     fn nearer(&self, x: &Points, best: &mut Lanes);
 }
@@ -122,6 +124,15 @@ impl Feature for Face {
             score[k] = score[k] * score[k] + out[k] * out[k];
         }
         (touch, score)
+    }
+
+    #[inline(always)]
+    fn bound(&self, x: &Points) -> Lanes {
+        let mut h = heights(&self.plane, x);
+        for k in 0..LANES {
+            h[k] *= h[k];
+        }
+        h
     }
 
     #[inline(always)]
@@ -193,6 +204,11 @@ impl Feature for Edge {
     }
 
     #[inline(always)]
+    fn bound(&self, x: &Points) -> Lanes {
+        self.foot(x, false).1
+    }
+
+    #[inline(always)]
     fn nearer(&self, x: &Points, best: &mut Lanes) {
         let (_, squared) = self.foot(x, true);
         lower(best, &squared, 0.0);
@@ -216,6 +232,13 @@ impl Feature for Corner {
         let mut score = [FAR; LANES];
         nearer_point(&self.at, x, &mut score);
         (touch, score)
+    }
+
+    #[inline(always)]
+    fn bound(&self, x: &Points) -> Lanes {
+        let mut squared = [FAR; LANES];
+        nearer_point(&self.at, x, &mut squared);
+        squared
     }
 
     #[inline(always)]
