@@ -407,3 +407,28 @@ fn scale_and_exact_shifts_change_no_bit() {
     assert_eq!(s.report, base.report);
     assert_eq!(mesh(&s).vertices, mesh(&base).vertices);
 }
+
+#[test]
+fn many_cavities_and_one_that_breaks_through() {
+    let mut m = cube([0.0; 3], 10.0);
+    let mut add = |at: [f64; 3]| {
+        let (v, f) = cube(at, 0.5);
+        let base = m.0.len() as u32;
+        m.0.extend(v);
+        m.1.extend(f.iter().map(|f| [f[0] + base, f[2] + base, f[1] + base]));
+    };
+    for n in 0..512 {
+        add([n % 8, n / 8 % 8, n / 64].map(|k| 1.0 + f64::from(k)));
+    }
+    let s = import(&m).unwrap();
+    assert_eq!((s.report.components, s.report.bodies), (513, 1));
+    assert!((s.report.volume - (1000.0 - 512.0 * 0.125)).abs() < 1e-9, "{}", s.report.volume);
+    assert!(!s.report.inverted && s.report.faces_turned == 0);
+    // A body across the outer wall is one with it.
+    let (v, f) = cube([9.75, 5.6, 5.6], 0.4);
+    let base = m.0.len() as u32;
+    m.0.extend(v);
+    m.1.extend(f.iter().map(|f| f.map(|i| i + base)));
+    let s = import(&m).unwrap();
+    assert_eq!((s.report.components, s.report.bodies), (514, 1));
+}

@@ -175,6 +175,10 @@ fn malformed_npy_is_refused_by_byte() {
     assert!(e.to_string().contains("version 9"), "{e}");
     let empty = read(&npy("|u1", false, [0, 4, 4], &[]), "x.npy", &options()).unwrap_err();
     assert!(matches!(empty, Error::Empty(_)), "{empty}");
+    // No loop over the axes that are not empty.
+    let text = "{'descr': '|u1', 'fortran_order': True, 'shape': (1, 1152921504606846976, 0), }";
+    let huge = read(&npy_text(1, text, &[]), "x.npy", &options()).unwrap_err();
+    assert!(matches!(huge, Error::Empty(_)), "{huge}");
     let nan: Vec<u8> = [0.0f64, 1.0, f64::NAN, 0.0].iter().flat_map(|v| v.to_le_bytes()).collect();
     let e = read(&npy("<f8", false, [1, 1, 4], &nan), "x.npy", &options()).unwrap_err();
     assert_eq!(e, Error::NotFinite("voxel 2 is NaN".into()));

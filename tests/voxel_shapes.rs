@@ -137,9 +137,11 @@ fn bad_layouts_are_refused_by_name() {
         (with(&|l| l.spacing[0] = -1.0), 2, "spacing along x is -1"),
         (with(&|l| l.origin[0] = f64::INFINITY), 3, "origin along x is inf"),
         (with(&|l| l.spacing[0] = 1e300), 2, "1e60"),
-        (with(&|l| l.spacing[0] = 9e59), 2, "1e60"),
+        (with(&|l| l.spacing = [9e59; 3]), 2, "1e60"),
         (with(&|l| l.origin[1] = -1e300), 2, "origin along y"),
         (with(&|l| l.spacing = [1e-70; 3]), 2, "1e-60"),
+        (with(&|l| l.spacing[2] = 1e-300), 2, "spacing along z"),
+        (with(&|l| l.spacing[1] = 1e-7), 2, "spacing along y"),
     ];
     for (error, status, text) in cases {
         assert_eq!(error.status(), status, "{error}");

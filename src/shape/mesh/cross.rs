@@ -22,7 +22,7 @@ impl Face {
 }
 
 /// Two lengths nearer than this touch (unit frame).
-const TOUCH: f64 = 1e-9;
+pub(super) const TOUCH: f64 = 1e-9;
 
 /// How two surfaces meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

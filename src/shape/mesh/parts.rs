@@ -195,8 +195,17 @@ pub fn bodies(
     for (i, j) in pairs(parts, &solid) {
         let (big, small) = (&parts[solid[i]], &parts[solid[j]]);
         run.check(0.7, "sorting the mesh into bodies")?;
-        let boxed = |p: &Part| p.faces.iter().map(|&f| Face::new(corners(f))).collect::<Vec<_>>();
-        let contact = cross::contact(&boxed(big), &boxed(small));
+        // Only faces in the other's box can meet it: a large part may hold many small ones.
+        let boxed = |p: &Part, other: &Part| {
+            let near = |c: &[Vec3; 3]| {
+                (0..3).all(|k| {
+                    c[0][k].min(c[1][k]).min(c[2][k]) <= other.hi[k] + cross::TOUCH
+                        && c[0][k].max(c[1][k]).max(c[2][k]) >= other.lo[k] - cross::TOUCH
+                })
+            };
+            p.faces.iter().map(|&f| corners(f)).filter(near).map(Face::new).collect::<Vec<_>>()
+        };
+        let contact = cross::contact(&boxed(big, small), &boxed(small, big));
         let field = fields[i].get_or_insert_with(|| {
             Field::new(big.faces.iter().map(|&f| &faces[f as usize]), points)
         });

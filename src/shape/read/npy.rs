@@ -21,6 +21,10 @@ pub(super) fn read(bytes: &[u8], options: &FileOptions) -> Result<RawVoxels> {
     let count = count.ok_or_else(|| {
         Error::TooLarge(format!("{a} x {b} x {c} voxels are more than can be counted"))
     })?;
+    if count == 0 {
+        // Before any loop over the axes: one of them may be huge.
+        return Err(Error::Empty(format!("an array of {a} x {b} x {c} voxels holds none")));
+    }
     let end = count as u128 * header.size as u128 + header.data as u128;
     if end != bytes.len() as u128 {
         return Err(Error::Format(format!(

@@ -65,6 +65,16 @@ pub(super) fn build(
     run: &Run,
 ) -> Result<Shape> {
     let spacing = scaled("spacing", layout.spacing, options.length_unit, LARGEST)?;
+    for (h, axis) in spacing.iter().zip(["x", "y", "z"]) {
+        let most = spacing.iter().fold(0.0, |m: f64, s| m.max(*s));
+        // Thinner cells than this would have distances that are no normal numbers.
+        if *h < SMALLEST || *h < 1e-6 * most {
+            return Err(Error::InvalidArgument(format!(
+                "the spacing along {axis}, {h:e} after scaling, is less than {SMALLEST:e} or than \
+                 1e-6 of the greatest, {most:e}"
+            )));
+        }
+    }
     let origin = scaled("origin", layout.origin, options.length_unit, 1e100)?;
     run.check(0.0, "looking for solid cells")?;
     let [nx, ny, nz] = layout.dims;
