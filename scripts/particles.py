@@ -23,7 +23,7 @@ def call(*words):
 
 print("# Clumps of real particles\n")
 print("Made by `scripts/particles.py` with the defaults (MSS, 64 cells along the longest edge);")
-print("D is paper 002's equation 27, measured on columns, not on the grid that made the clump.")
+print("D is Buchele et al. 2026, equation 27, measured on columns, not on the grid that made the clump.")
 print("Protrusion and RMS distance are over the equivalent diameter; s is one whole run with all")
 print(f"quality figures, on {os.cpu_count()} threads.\n")
 head = ["particle", "faces", "closed"]

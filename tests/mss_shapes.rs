@@ -89,7 +89,7 @@ fn boxes_of_voxels_have_no_bias() {
 
 #[test]
 fn two_overlapping_balls_are_both_found() {
-    // Figure 6 of paper 002: the smaller one shows in 2E − Ẽ only.
+    // Figure 6 of Buchele et al. 2026: the smaller one shows in 2E − Ẽ only.
     let two = [([20.0, 18.0, 18.0], 14.0), ([33.0, 18.0, 18.0], 10.0)];
     let dims = [50, 37, 37];
     let (solid, mask) = cells(dims, [1.0; 3], &balls(&two));

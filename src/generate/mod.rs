@@ -11,7 +11,7 @@ use crate::solid::Solid;
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// Local maxima of the distance transform, then of 2E − Ẽ (paper 002).
+    /// Local maxima of the distance transform, then of 2E − Ẽ (Buchele et al. 2026).
     #[default]
     Mss,
 }
@@ -28,11 +28,11 @@ pub struct GenerateOptions {
     pub mismatch: f64,
     /// Least radius, in the caller's unit.
     pub min_radius: f64,
-    /// Least distance between centres, in cells (δ_min of paper 002, section 3.4).
+    /// Least distance between centres, in cells (δ_min of Buchele et al. 2026, section 3.4).
     pub min_distance: f64,
     /// Added to every radius, in cells; 0 has no bias.
     pub radius_offset: f64,
-    /// Limit the radii so that no sphere reaches beyond the true surface (paper 002, section 3.5).
+    /// Limit the radii so that no sphere reaches beyond the true surface (Buchele et al. 2026, section 3.5).
     pub confine: bool,
     /// Quality to measure on the result; `None` costs nothing.
     pub quality: Option<QualityOptions>,

@@ -38,9 +38,9 @@ impl Default for QualityOptions {
 /// What was not asked for is 0 or empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Quality {
-    /// D = 1 − 2|S∩C| / (|S|+|C|) (paper 002, eq 27).
+    /// D = 1 − 2|S∩C| / (|S|+|C|) (Buchele et al. 2026, eq 27).
     pub mismatch: f64,
-    /// η = |S△C| / |S| (paper 002, eq 7).
+    /// η = |S△C| / |S| (Buchele et al. 2026, eq 7).
     pub eta: f64,
     /// |S∩C| / |S∪C|.
     pub iou: f64,

@@ -176,7 +176,7 @@ pub(super) fn compare(
     })
 }
 
-/// D of three volumes (paper 002, eq 27).
+/// D of three volumes (Buchele et al. 2026, eq 27).
 fn dice(s: f64, c: f64, both: f64) -> f64 {
     (1.0 - 2.0 * both / (s + c)).clamp(0.0, 1.0)
 }

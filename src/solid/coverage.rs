@@ -1,4 +1,4 @@
-//! Which cells are in: those of which more than half is covered (paper 002, eq 5).
+//! Which cells are in: those of which more than half is covered (Buchele et al. 2026, eq 5).
 //!
 //! Coverage is the mean length inside of k × k columns through a cell, taken
 //! along x, where the arrays are contiguous. The columns of a cell lie

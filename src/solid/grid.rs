@@ -13,7 +13,7 @@ use std::sync::{Arc, OnceLock};
 pub enum Resolution {
     /// Cells along the longest edge of the bounding box.
     CellsLongest(u32),
-    /// Cells along the shortest edge of the bounding box (the rule of paper 002).
+    /// Cells along the shortest edge of the bounding box (the rule of Buchele et al. 2026).
     CellsShortest(u32),
     /// Cells along the diameter of the sphere of equal volume.
     CellsDiameter(u32),

@@ -27,7 +27,7 @@ use std::sync::{Arc, OnceLock};
 pub struct SolidOptions {
     /// How fine the grid is. Voxel shapes keep their own cells.
     pub resolution: Resolution,
-    /// Empty cells around the shape, at least 2 (paper 002, eq 6).
+    /// Empty cells around the shape, at least 2 (Buchele et al. 2026, eq 6).
     pub padding: usize,
     /// Most bytes that grid arrays may take together.
     pub memory_limit: u64,
@@ -68,7 +68,7 @@ impl Solid {
         &self.grid
     }
 
-    /// 1 for cells of which more than half is covered (paper 002, eq 5), else 0; x fastest.
+    /// 1 for cells of which more than half is covered (Buchele et al. 2026, eq 5), else 0; x fastest.
     pub fn inside(&self) -> &[u8] {
         &self.inside
     }

@@ -165,7 +165,7 @@ fn center(lattice: &Lattice, cell: &[u32; 3]) -> [f64; 3] {
     std::array::from_fn(|a| f64::from(cell[a]) * lattice.step[a])
 }
 
-/// The maximum near a cell, between the cells (paper 002, section 3.3).
+/// The maximum near a cell, between the cells (Buchele et al. 2026, section 3.3).
 fn between(target: &Target, field: &[f32], cell: &[u32; 3], peak: bool) -> Place {
     let lattice = &target.lattice;
     let mut at = center(lattice, cell);

@@ -1,4 +1,4 @@
-//! Local maxima of a field in the 3×3×3 neighbourhood (paper 002, section 3.3).
+//! Local maxima of a field in the 3×3×3 neighbourhood (Buchele et al. 2026, section 3.3).
 
 use super::lattice::Lattice;
 use crate::run::Pool;

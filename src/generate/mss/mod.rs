@@ -1,4 +1,4 @@
-//! The MSS algorithm of paper 002 (Buchele, Pöschel and Müller 2026): spheres at
+//! The MSS algorithm of Buchele, Pöschel and Müller (arXiv:2603.05877, 2026): spheres at
 //! the local maxima of the distance transform E, then at those of 2E − Ẽ.
 //!
 //! What differs from the paper, and why, is in docs/mss.md. In short: the

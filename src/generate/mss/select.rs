@@ -1,6 +1,6 @@
 //! Which of the places get a sphere: the one whose orbit brings D down most a
-//! sphere. D decides, never the position, so truncation is fair, mirror images
-//! go together, and the first n spheres are the same whatever number was asked for.
+//! sphere. D decides, never the position, so truncation is fair and mirror images
+//! go together.
 
 use super::candidates::Place;
 use super::lattice::{Ball, distance_squared};

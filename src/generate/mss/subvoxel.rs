@@ -1,4 +1,4 @@
-//! Local maxima between cell centres (paper 002, equations 11 to 24).
+//! Local maxima between cell centres (Buchele et al. 2026, equations 11 to 24).
 
 /// Where two lines through four of five equidistant values meet, and the value there: one line
 /// through positions −1 and 0, one through 1 and 2 (equations 17 to 21). Lines that are parallel

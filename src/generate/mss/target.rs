@@ -115,7 +115,7 @@ impl<'a> Target<'a> {
         self.truth.as_ref().is_some_and(|t| t.mesh)
     }
 
-    /// Exact distance to the true surface, in cells; `None` when `p` is not inside (paper 002,
+    /// Exact distance to the true surface, in cells; `None` when `p` is not inside (Buchele et al. 2026,
     /// section 3.5).
     pub fn limit(&self, p: &[f64; 3]) -> Option<f64> {
         match &self.truth {

@@ -62,7 +62,7 @@ pub enum Primitive {
         /// Height along z.
         height: f64,
     },
-    /// Bi-convex tablet (paper 000, table 1: band radius 5.675 mm, band height 4.0 mm, cap height 1.23 mm).
+    /// Bi-convex tablet (Yuan 2019, table 1: band radius 5.675 mm, band height 4.0 mm, cap height 1.23 mm).
     Tablet {
         /// Radius of the band.
         band_radius: f64,
@@ -106,7 +106,7 @@ impl Primitive {
     ];
 
     /// A primitive by name with its default parameters: lengths about 1, but for
-    /// the tablet (paper 000, table 1) and the M&M (Donev et al., Science 303, 2004:
+    /// the tablet (Yuan 2019, table 1) and the M&M (Donev et al., Science 303, 2004:
     /// diameters 13.40 and 6.93), which are in millimetres.
     pub fn from_name(name: &str) -> Result<Primitive> {
         Ok(match name {
