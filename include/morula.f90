@@ -260,6 +260,7 @@ module morula
   public :: morula_primitive_copy_parameter, morula_shape_from_primitive
   public :: morula_solid_options_init, morula_solid_from_shape, morula_solid_free
   public :: morula_solid_grid, morula_solid_distance, morula_solid_note_count
+  public :: morula_shape_counters, morula_solid_counters
   public :: morula_solid_copy_note, morula_solid_moments, morula_clump_options_init
   public :: morula_clump_from_shape, morula_clump_from_solid, morula_clump_free
   public :: morula_clump_sphere_count, morula_clump_copy_spheres, morula_clump_stopped
@@ -345,6 +346,12 @@ module morula
       type(morula_moments), intent(inout) :: moments
       integer(c_int32_t) :: r
     end function morula_shape_moments
+    function morula_shape_counters(shape, counters) bind(c) result(r)
+      import
+      type(c_ptr), value :: shape
+      type(morula_counters), intent(inout) :: counters
+      integer(c_int32_t) :: r
+    end function morula_shape_counters
     function morula_file_options_init(options, size) bind(c) result(r)
       import
       type(morula_file_options), intent(out) :: options
@@ -536,6 +543,12 @@ module morula
       type(morula_moments), intent(inout) :: moments
       integer(c_int32_t) :: r
     end function morula_solid_moments
+    function morula_solid_counters(solid, counters) bind(c) result(r)
+      import
+      type(c_ptr), value :: solid
+      type(morula_counters), intent(inout) :: counters
+      integer(c_int32_t) :: r
+    end function morula_solid_counters
     function morula_clump_options_init(options, size) bind(c) result(r)
       import
       type(morula_clump_options), intent(out) :: options
@@ -670,6 +683,8 @@ module morula
     !> Note `index`, counted from 1.
     procedure :: note => shape_note
     procedure :: moments => shape_moments
+    !> Stage times and counters of what made it.
+    procedure :: counters => shape_counters
     procedure :: destroy => shape_destroy
     !> The C handle; it stays this variable's.
     procedure :: c_handle => shape_handle
@@ -691,6 +706,8 @@ module morula
     !> Note `index`, counted from 1.
     procedure :: note => solid_note
     procedure :: moments => solid_moments
+    !> Stage times and counters of what made it.
+    procedure :: counters => solid_counters
     procedure :: destroy => solid_destroy
     !> The C handle; it stays this variable's.
     procedure :: c_handle => solid_handle
@@ -1045,6 +1062,14 @@ contains
     call finish(morula_shape_moments(self%handle, density, moments), status)
   end subroutine shape_moments
 
+  subroutine shape_counters(self, counters, status)
+    class(morula_shape_t), intent(in) :: self
+    type(morula_counters), intent(out) :: counters
+    integer(c_int32_t), intent(out), optional :: status
+    counters%struct_size = c_sizeof(counters)
+    call finish(morula_shape_counters(self%handle, counters), status)
+  end subroutine shape_counters
+
   subroutine shape_destroy(self)
     class(morula_shape_t), intent(inout) :: self
     call morula_shape_free(self%handle)
@@ -1137,6 +1162,14 @@ contains
     moments%struct_size = c_sizeof(moments)
     call finish(morula_solid_moments(self%handle, density, moments), status)
   end subroutine solid_moments
+
+  subroutine solid_counters(self, counters, status)
+    class(morula_solid_t), intent(in) :: self
+    type(morula_counters), intent(out) :: counters
+    integer(c_int32_t), intent(out), optional :: status
+    counters%struct_size = c_sizeof(counters)
+    call finish(morula_solid_counters(self%handle, counters), status)
+  end subroutine solid_counters
 
   subroutine solid_destroy(self)
     class(morula_solid_t), intent(inout) :: self

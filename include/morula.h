@@ -377,6 +377,39 @@ typedef struct morula_moments {
   double relative_error;
 } morula_moments;
 
+/// What the calls did that led to a shape, a solid or a clump; zero for work that was not
+/// asked for.
+typedef struct morula_counters {
+  /// sizeof(morula_counters), set by the caller.
+  size_t struct_size;
+  /// Wall-clock seconds of reading.
+  double seconds_read;
+  /// Wall-clock seconds of checks and repair.
+  double seconds_check;
+  /// Wall-clock seconds of grid, inside test and distances.
+  double seconds_solid;
+  /// Wall-clock seconds of the method.
+  double seconds_generate;
+  /// Wall-clock seconds of the quality figures.
+  double seconds_measure;
+  /// Wall-clock seconds of the moments.
+  double seconds_moments;
+  /// Grid cells made.
+  uint64_t cells;
+  /// Greatest number of bytes that the large arrays held at once (from their sizes).
+  uint64_t peak_bytes;
+  /// Distance transforms run.
+  uint64_t transforms;
+  /// Exact distances to the surface asked for.
+  uint64_t exact_distances;
+  /// Local maxima looked at.
+  uint64_t maxima;
+  /// Spheres tried.
+  uint64_t spheres_tried;
+  /// Columns measured.
+  uint64_t columns;
+} morula_counters;
+
 /// How a file is read, beside morula_import_options. Fill it with morula_file_options_init().
 typedef struct morula_file_options {
   /// sizeof(morula_file_options).
@@ -527,38 +560,6 @@ typedef struct morula_surface {
   uint32_t reserved;
 } morula_surface;
 
-/// What the calls that led to a clump did; zero for work that was not asked for.
-typedef struct morula_counters {
-  /// sizeof(morula_counters), set by the caller.
-  size_t struct_size;
-  /// Wall-clock seconds of reading.
-  double seconds_read;
-  /// Wall-clock seconds of checks and repair.
-  double seconds_check;
-  /// Wall-clock seconds of grid, inside test and distances.
-  double seconds_solid;
-  /// Wall-clock seconds of the method.
-  double seconds_generate;
-  /// Wall-clock seconds of the quality figures.
-  double seconds_measure;
-  /// Wall-clock seconds of the moments.
-  double seconds_moments;
-  /// Grid cells made.
-  uint64_t cells;
-  /// Greatest number of bytes that the large arrays held at once (from their sizes).
-  uint64_t peak_bytes;
-  /// Distance transforms run.
-  uint64_t transforms;
-  /// Exact distances to the surface asked for.
-  uint64_t exact_distances;
-  /// Local maxima looked at.
-  uint64_t maxima;
-  /// Spheres tried.
-  uint64_t spheres_tried;
-  /// Columns measured.
-  uint64_t columns;
-} morula_counters;
-
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -683,6 +684,15 @@ int32_t morula_shape_copy_note(const struct morula_shape *shape,
 int32_t morula_shape_moments(const struct morula_shape *shape,
                              double density,
                              struct morula_moments *moments);
+
+/// What was done to make the shape: stage times and counters of the call that
+/// made it. What comes later (solids, moments, clumps) does not count.
+///
+/// Parameters: `counters` is filled; set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_shape_counters(const struct morula_shape *shape,
+                              struct morula_counters *counters);
 
 /// Fills options with the defaults.
 ///
@@ -961,6 +971,16 @@ int32_t morula_solid_copy_note(const struct morula_solid *solid,
 int32_t morula_solid_moments(const struct morula_solid *solid,
                              double density,
                              struct morula_moments *moments);
+
+/// What was done on the road to the solid: stage times and counters of the
+/// calls that made its shape and itself, added up (of peak_bytes the greatest).
+/// Clumps made from it do not count.
+///
+/// Parameters: `counters` is filled; set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_solid_counters(const struct morula_solid *solid,
+                              struct morula_counters *counters);
 
 /// Fills options with the defaults.
 ///

@@ -258,6 +258,11 @@ class Shape {
     return detail::filled<morula_moments>(
         [&](morula_moments *m) { return morula_shape_moments(get(), density, m); });
   }
+  /// Stage times and counters of the call that made it.
+  morula_counters counters() const {
+    return detail::filled<morula_counters>(
+        [&](morula_counters *c) { return morula_shape_counters(get(), c); });
+  }
   /// The C handle; it stays this object's.
   const morula_shape *get() const noexcept { return handle_.get(); }
 
@@ -343,6 +348,11 @@ class Solid {
     return detail::filled<morula_moments>(
         [&](morula_moments *m) { return morula_solid_moments(get(), density, m); });
   }
+  /// Stage times and counters of the calls that made its shape and itself.
+  morula_counters counters() const {
+    return detail::filled<morula_counters>(
+        [&](morula_counters *c) { return morula_solid_counters(get(), c); });
+  }
   const morula_solid *get() const noexcept { return handle_.get(); }
 
  private:
@@ -416,6 +426,7 @@ class Clump {
     check(morula_clump_copy_plane_contacts(get(), counts.size(), counts.data()));
     return counts;
   }
+  /// Stage times and counters of the calls that made its shape, its solid and itself.
   morula_counters counters() const {
     return detail::filled<morula_counters>(
         [&](morula_counters *c) { return morula_clump_counters(get(), c); });

@@ -22,20 +22,40 @@ static int32_t progress(double fraction, void *user) {
 static const char OFF[] =
     "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
 
-/* Times and counters of a clump cover its shape and solid; what was not wanted stays 0. */
+/* A shape, a solid and a clump each tell what was done on the road to them; what was not
+ * wanted stays 0. */
 static void whole_road(const morula_shape *read_from_file) {
+  morula_solid *solid = NULL;
   morula_clump *clump = NULL;
   morula_clump_options options;
-  morula_counters counters = {0};
-  counters.struct_size = sizeof counters;
+  morula_counters shapes = {0}, solids = {0}, clumps = {0};
+  shapes.struct_size = solids.struct_size = clumps.struct_size = sizeof shapes;
+  OK(morula_shape_counters(read_from_file, &shapes));
+  CHECK(shapes.seconds_read > 0 && shapes.seconds_check > 0);
+  CHECK(shapes.seconds_solid == 0 && shapes.cells == 0);
+
+  OK(morula_solid_from_shape(read_from_file, NULL, &solid));
+  OK(morula_solid_counters(solid, &solids));
+  CHECK(solids.seconds_read == shapes.seconds_read && solids.seconds_check == shapes.seconds_check);
+  CHECK(solids.seconds_solid > 0 && solids.cells > 0 && solids.peak_bytes > 0);
+  CHECK(solids.seconds_generate == 0 && solids.spheres_tried == 0);
+
   OK(morula_clump_options_init(&options, sizeof options));
   options.spheres = 3;
   options.wants = MORULA_WANT_NOTHING;
+  OK(morula_clump_from_solid(solid, &options, &clump));
+  OK(morula_clump_counters(clump, &clumps));
+  CHECK(clumps.seconds_read == shapes.seconds_read && clumps.seconds_solid >= solids.seconds_solid);
+  CHECK(clumps.seconds_generate > 0 && clumps.cells >= solids.cells);
+  CHECK(clumps.seconds_measure == 0 && clumps.columns == 0 && clumps.exact_distances == 0);
+  morula_clump_free(clump);
+  morula_solid_free(solid);
+
   OK(morula_clump_from_shape(read_from_file, NULL, &options, &clump));
-  OK(morula_clump_counters(clump, &counters));
-  CHECK(counters.seconds_read > 0 && counters.seconds_check > 0 && counters.seconds_solid > 0);
-  CHECK(counters.seconds_generate > 0 && counters.cells > 0 && counters.peak_bytes > 0);
-  CHECK(counters.seconds_measure == 0 && counters.columns == 0 && counters.exact_distances == 0);
+  OK(morula_clump_counters(clump, &clumps));
+  CHECK(clumps.seconds_read == shapes.seconds_read && clumps.seconds_check > 0);
+  CHECK(clumps.seconds_solid > 0 && clumps.seconds_generate > 0 && clumps.peak_bytes > 0);
+  CHECK(clumps.cells == solids.cells);
   morula_clump_free(clump);
 }
 

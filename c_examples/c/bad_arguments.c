@@ -270,6 +270,10 @@ static void handles(void) {
   STATUS(morula_clump_surface(NULL, &surface), MORULA_STATUS_NULL_POINTER);
   STATUS(morula_clump_copy_exposed_areas(NULL, 4, numbers), MORULA_STATUS_NULL_POINTER);
   STATUS(morula_clump_copy_plane_contacts(NULL, 1, contacts), MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_shape_counters(NULL, &counters), MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_shape_counters(shape, NULL), MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_solid_counters(NULL, &counters), MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_solid_counters(solid, NULL), MORULA_STATUS_NULL_POINTER);
   STATUS(morula_clump_counters(NULL, &counters), MORULA_STATUS_NULL_POINTER);
   STATUS(morula_clump_counters(clump, NULL), MORULA_STATUS_NULL_POINTER);
 

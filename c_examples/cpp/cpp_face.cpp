@@ -81,6 +81,8 @@ int main() {
   CHECK(clump.exposed_areas().size() == spheres.size());
   CHECK(clump.plane_contacts(2)[1] >= clump.plane_contacts(2)[0]);
   CHECK(clump.counters().seconds_generate > 0 && clump.stopped() >= 0);
+  CHECK(shape.counters().seconds_check > 0 && shape.counters().cells == 0);
+  CHECK(solid.counters().cells > 0 && solid.counters().seconds_generate == 0);
 
   // Body-frame spheres turned and moved back lie in the input frame's box.
   const double *r = m.rotation;

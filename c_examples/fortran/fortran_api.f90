@@ -268,7 +268,7 @@ contains
     type(morula_moments) :: m
     type(morula_overlap) :: overlap
     type(morula_surface) :: surface
-    type(morula_counters) :: counters
+    type(morula_counters) :: counters, of_shape, of_solid
     real(c_double) :: vertices(3, 12), xyzr(4, 15), in_body(4, 15), distances(2), areas(15)
     real(c_double) :: spacing(3), origin(3), r(3, 3), p(3)
     integer(c_int32_t) :: triangles(3, 20), status, stopped, contacts(2)
@@ -328,6 +328,12 @@ contains
     call check(contacts(1) >= 1 .and. contacts(2) >= contacts(1), 'plane contacts')
     call clump%counters(counters)
     call check(counters%seconds_generate > 0 .and. counters%seconds_check > 0, 'counters')
+    call s%counters(of_shape)
+    call check(of_shape%seconds_check > 0 .and. of_shape%cells == 0, 'counters of a shape')
+    call solid%counters(of_solid)
+    call check(of_solid%seconds_check >= of_shape%seconds_check, 'a solid counts its shape')
+    call check(of_solid%cells > 0 .and. of_solid%seconds_solid > 0, 'counters of a solid')
+    call check(of_solid%seconds_generate <= 0, 'a solid counts no clump')
 
     ! From the shape, in the body frame; back by p = R b + centre.
     options%frame = MORULA_FRAME_BODY

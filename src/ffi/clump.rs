@@ -1,6 +1,7 @@
 //! Making clumps.
 
 use super::callbacks::{MORULA_LOG_INFO, log, log_notes, run};
+use super::choices::*;
 use super::guard::{borrow, give, guard, require, slice, take};
 use super::options::{init, read};
 use super::shape::morula_shape;

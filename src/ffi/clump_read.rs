@@ -1,14 +1,14 @@
 //! What can be asked of a clump.
 
+use super::choices::*;
 use super::clump::morula_clump;
 use super::guard::{borrow, copy_out, copy_text, guard};
 use super::options::{check, fill};
-use super::shape::{moments_struct, put};
+use super::shape::{counters_struct, moments_struct, put};
 use super::structs::*;
 use crate::clump::Stopped;
 use crate::error::{Error, Result};
 use crate::measure::Quality;
-use crate::run::Stage;
 use std::ffi::c_char;
 
 impl morula_clump {
@@ -275,24 +275,7 @@ pub unsafe extern "C" fn morula_clump_counters(
     counters: *mut morula_counters,
 ) -> i32 {
     guard(|| {
-        let c = &unsafe { borrow(clump, "clump")? }.inner.counters;
-        let seconds = |stage: Stage| c.seconds[stage as usize];
-        let value = morula_counters {
-            struct_size: 0,
-            seconds_read: seconds(Stage::Read),
-            seconds_check: seconds(Stage::Check),
-            seconds_solid: seconds(Stage::Solid),
-            seconds_generate: seconds(Stage::Generate),
-            seconds_measure: seconds(Stage::Measure),
-            seconds_moments: seconds(Stage::Moments),
-            cells: c.cells,
-            peak_bytes: c.peak_bytes,
-            transforms: c.transforms,
-            exact_distances: c.exact_distances,
-            maxima: c.maxima,
-            spheres_tried: c.spheres_tried,
-            columns: c.columns,
-        };
-        unsafe { fill(counters, &value) }
+        let clump = unsafe { borrow(clump, "clump")? };
+        unsafe { fill(counters, &counters_struct(&clump.inner.counters)) }
     })
 }

@@ -15,8 +15,10 @@
 #![allow(clippy::too_many_arguments)]
 
 mod callbacks;
+mod choices;
 mod clump;
 mod clump_read;
+mod defaults;
 mod fenv;
 mod file;
 mod guard;
@@ -31,6 +33,7 @@ mod tests;
 mod voxels;
 
 pub use callbacks::*;
+pub use choices::*;
 pub use clump::*;
 pub use clump_read::*;
 pub use file::*;

@@ -6,6 +6,7 @@
 //! longer one from a newer header is taken while the bytes that this library
 //! does not know are zero.
 
+use super::choices::*;
 use super::structs::*;
 use crate::error::{Error, Result};
 

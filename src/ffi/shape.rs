@@ -1,12 +1,13 @@
 //! Shapes from meshes and analytic particles, and what can be asked of a shape.
 
 use super::callbacks::{log_notes, run};
+use super::choices::*;
 use super::guard::{borrow, copy_text, give, guard, require, slice, take};
 use super::options::{fill, init, read};
 use super::structs::*;
 use crate::error::{Error, Result};
 use crate::math::{Moments, PrincipalFrame, UnitFrame};
-use crate::run::{Counters, Run};
+use crate::run::{Counters, Run, Stage};
 use crate::shape::{Bodies, ImportOptions, Shape};
 use crate::solid::moments::moments as unit_moments;
 use std::ffi::c_char;
@@ -271,6 +272,23 @@ pub unsafe extern "C" fn morula_shape_moments(
     })
 }
 
+/// What was done to make the shape: stage times and counters of the call that
+/// made it. What comes later (solids, moments, clumps) does not count.
+///
+/// Parameters: `counters` is filled; set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_counters(
+    shape: *const morula_shape,
+    counters: *mut morula_counters,
+) -> i32 {
+    guard(|| {
+        let shape = unsafe { borrow(shape, "shape")? };
+        unsafe { fill(counters, &counters_struct(&shape.counters)) }
+    })
+}
+
 /// Note `index`.
 pub(super) fn note(notes: &[String], index: usize) -> Result<&str> {
     notes.get(index).map(String::as_str).ok_or_else(|| {
@@ -324,4 +342,25 @@ pub(super) fn moments_struct(
         )));
     }
     Ok(value)
+}
+
+/// Counters as the caller gets them.
+pub(super) fn counters_struct(c: &Counters) -> morula_counters {
+    let seconds = |stage: Stage| c.seconds[stage as usize];
+    morula_counters {
+        struct_size: 0,
+        seconds_read: seconds(Stage::Read),
+        seconds_check: seconds(Stage::Check),
+        seconds_solid: seconds(Stage::Solid),
+        seconds_generate: seconds(Stage::Generate),
+        seconds_measure: seconds(Stage::Measure),
+        seconds_moments: seconds(Stage::Moments),
+        cells: c.cells,
+        peak_bytes: c.peak_bytes,
+        transforms: c.transforms,
+        exact_distances: c.exact_distances,
+        maxima: c.maxima,
+        spheres_tried: c.spheres_tried,
+        columns: c.columns,
+    }
 }

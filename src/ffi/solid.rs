@@ -1,9 +1,10 @@
 //! Solids: a shape with a grid, ready for clumps and for distances.
 
 use super::callbacks::{log_notes, run};
+use super::choices::*;
 use super::guard::{borrow, check_bytes, copy_text, give, guard, require, slice, take};
 use super::options::{check, fill, init, read};
-use super::shape::{moments_struct, morula_shape, note, put};
+use super::shape::{counters_struct, moments_struct, morula_shape, note, put};
 use super::structs::*;
 use crate::error::{Error, Result};
 use crate::math::Vec3;
@@ -235,5 +236,23 @@ pub unsafe extern "C" fn morula_solid_moments(
         unsafe { check(moments)? };
         let value = moments_struct(solid.unit_moments(), solid.frame(), density)?;
         unsafe { fill(moments, &value) }
+    })
+}
+
+/// What was done on the road to the solid: stage times and counters of the
+/// calls that made its shape and itself, added up (of peak_bytes the greatest).
+/// Clumps made from it do not count.
+///
+/// Parameters: `counters` is filled; set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_solid_counters(
+    solid: *const morula_solid,
+    counters: *mut morula_counters,
+) -> i32 {
+    guard(|| {
+        let solid = unsafe { borrow(solid, "solid")? };
+        unsafe { fill(counters, &counters_struct(&solid.counters)) }
     })
 }

@@ -53,6 +53,15 @@ fn counters_cover_the_whole_road() {
         assert_eq!(morula_solid_from_shape(shape, null(), &mut solid), 0);
         assert_eq!(morula_clump_from_solid(solid, &options, &mut second), 0);
     }
+    // Each handle tells of the calls that led to it, and of no later one.
+    let (mut s, mut g): (morula_counters, morula_counters) = (sized(), sized());
+    assert_eq!(unsafe { morula_shape_counters(shape, &mut s) }, 0);
+    assert_eq!(unsafe { morula_solid_counters(solid, &mut g) }, 0);
+    assert!(s.seconds_read > 0.0 && s.seconds_check > 0.0);
+    assert_eq!((s.seconds_solid, s.cells, s.seconds_moments), (0.0, 0, 0.0));
+    assert_eq!((g.seconds_read, g.seconds_check), (s.seconds_read, s.seconds_check));
+    assert!(g.seconds_solid > 0.0 && g.cells > 0 && g.seconds_moments > 0.0);
+    assert_eq!((g.seconds_generate, g.transforms, g.spheres_tried), (0.0, 0, 0));
     let (a, b) = (counters(first), counters(second));
     for c in [a, b] {
         assert!(c.seconds_read > 0.0 && c.seconds_check > 0.0 && c.seconds_solid > 0.0);

@@ -1,0 +1,99 @@
+//! The numbers that name choices: struct numbers, options, reasons to stop.
+
+/// morula_import_options, for morula_sizeof().
+pub const MORULA_STRUCT_IMPORT_OPTIONS: i32 = 1;
+/// morula_file_options, for morula_sizeof().
+pub const MORULA_STRUCT_FILE_OPTIONS: i32 = 2;
+/// morula_solid_options, for morula_sizeof().
+pub const MORULA_STRUCT_SOLID_OPTIONS: i32 = 3;
+/// morula_clump_options, for morula_sizeof().
+pub const MORULA_STRUCT_CLUMP_OPTIONS: i32 = 4;
+/// morula_report, for morula_sizeof().
+pub const MORULA_STRUCT_REPORT: i32 = 5;
+/// morula_moments, for morula_sizeof().
+pub const MORULA_STRUCT_MOMENTS: i32 = 6;
+/// morula_overlap, for morula_sizeof().
+pub const MORULA_STRUCT_OVERLAP: i32 = 7;
+/// morula_surface, for morula_sizeof().
+pub const MORULA_STRUCT_SURFACE: i32 = 8;
+/// morula_counters, for morula_sizeof().
+pub const MORULA_STRUCT_COUNTERS: i32 = 9;
+
+/// Refuse a shape of several disconnected bodies, with the count (the default).
+pub const MORULA_BODIES_REFUSE: i32 = 0;
+/// Keep the body of greatest volume; the notes say what was dropped.
+pub const MORULA_BODIES_LARGEST: i32 = 1;
+/// Keep all bodies as one particle.
+pub const MORULA_BODIES_ALL: i32 = 2;
+
+/// Tell the format of a file by its content, then by its name (the default).
+pub const MORULA_FORMAT_AUTO: i32 = 0;
+/// STL, ascii or binary.
+pub const MORULA_FORMAT_STL: i32 = 1;
+/// Wavefront OBJ.
+pub const MORULA_FORMAT_OBJ: i32 = 2;
+/// PLY, ascii or binary.
+pub const MORULA_FORMAT_PLY: i32 = 3;
+/// OFF, COFF, NOFF.
+pub const MORULA_FORMAT_OFF: i32 = 4;
+/// NumPy array.
+pub const MORULA_FORMAT_NPY: i32 = 5;
+/// Multi-page TIFF.
+pub const MORULA_FORMAT_TIFF: i32 = 6;
+/// Raw voxels: the raw_ fields of the options describe them.
+pub const MORULA_FORMAT_RAW: i32 = 7;
+
+/// Voxel files: two values are a mask, more are grey values with Otsu's threshold (the default).
+pub const MORULA_MEANING_AUTO: i32 = 0;
+/// Voxel files: grey values, solid above Otsu's threshold.
+pub const MORULA_MEANING_OTSU: i32 = 1;
+/// Voxel files: grey values, solid above the option `threshold`.
+pub const MORULA_MEANING_ABOVE: i32 = 2;
+/// Voxel files: labels, of which the option `label` is taken.
+pub const MORULA_MEANING_LABEL: i32 = 3;
+
+/// Raw voxels of 8 bits, unsigned.
+pub const MORULA_RAW_U8: i32 = 0;
+/// Raw voxels of 16 bits, unsigned, little-endian.
+pub const MORULA_RAW_U16: i32 = 1;
+/// Raw voxels of 32 bits, floating point, little-endian.
+pub const MORULA_RAW_F32: i32 = 2;
+
+/// `cells` along the longest edge of the bounding box (the default, 64).
+pub const MORULA_RESOLUTION_CELLS_LONGEST: i32 = 0;
+/// `cells` along the shortest edge of the bounding box.
+pub const MORULA_RESOLUTION_CELLS_SHORTEST: i32 = 1;
+/// `cells` along the diameter of the sphere of equal volume.
+pub const MORULA_RESOLUTION_CELLS_DIAMETER: i32 = 2;
+/// Cells of the edge length `cell_size`.
+pub const MORULA_RESOLUTION_CELL_SIZE: i32 = 3;
+
+/// MSS: local maxima of the distance transform, iterated (the default).
+pub const MORULA_METHOD_MSS: i32 = 0;
+
+/// Spheres in the frame in which the shape was handed in (the default).
+pub const MORULA_FRAME_INPUT: i32 = 0;
+/// Spheres in the body frame: origin at the centre of mass, axes principal.
+pub const MORULA_FRAME_BODY: i32 = 1;
+
+/// Want nothing but the spheres.
+pub const MORULA_WANT_NOTHING: u32 = 0;
+/// Want morula_clump_overlap(): D, coverage, union volume and moments.
+pub const MORULA_WANT_OVERLAP: u32 = 1;
+/// Want morula_clump_surface() and exposed areas: protrusion, distances, roughness.
+pub const MORULA_WANT_SURFACE: u32 = 2;
+/// Want morula_clump_moments(): mass, centre, inertia of the target (the default).
+pub const MORULA_WANT_MOMENTS: u32 = 4;
+
+/// The number of spheres asked for was reached.
+pub const MORULA_STOPPED_SPHERES: i32 = 0;
+/// The mismatch asked for was reached.
+pub const MORULA_STOPPED_MISMATCH: i32 = 1;
+/// Every further sphere would be smaller than the least radius.
+pub const MORULA_STOPPED_RADIUS: i32 = 2;
+/// The deadline passed.
+pub const MORULA_STOPPED_DEADLINE: i32 = 3;
+/// The progress callback cancelled; the clump holds the spheres found so far.
+pub const MORULA_STOPPED_CANCELLED: i32 = 4;
+/// The method finds no further sphere that brings the clump closer; the note says why.
+pub const MORULA_STOPPED_EXHAUSTED: i32 = 5;

@@ -1,0 +1,124 @@
+//! What options hold before the caller sets them, and the size that each struct
+//! had in the first release.
+
+use super::choices::*;
+use super::options::Versioned;
+use super::structs::*;
+
+macro_rules! versioned {
+    ($name:ident, $first:expr, $defaults:expr) => {
+        unsafe impl Versioned for $name {
+            const NAME: &'static str = stringify!($name);
+            const FIRST: usize = $first;
+            fn defaults() -> Self {
+                $defaults
+            }
+        }
+        // On 64-bit systems, where sizes are part of the promise.
+        #[cfg(target_pointer_width = "64")]
+        const _: () = assert!(size_of::<$name>() >= $first);
+    };
+}
+
+versioned!(
+    morula_import_options,
+    64,
+    morula_import_options {
+        struct_size: size_of::<Self>(),
+        weld_tolerance: 1e-6,
+        length_unit: 1.0,
+        memory_limit: 2 << 30,
+        bodies: MORULA_BODIES_REFUSE,
+        index_base: 0,
+        threads: 1,
+        reserved: 0,
+        progress: None,
+        user: std::ptr::null_mut(),
+    }
+);
+versioned!(
+    morula_file_options,
+    120,
+    morula_file_options {
+        struct_size: size_of::<Self>(),
+        format: MORULA_FORMAT_AUTO,
+        meaning: MORULA_MEANING_AUTO,
+        threshold: 0.0,
+        label: 1,
+        npy_xyz: 0,
+        spacing: [1.0; 3],
+        origin: [0.0; 3],
+        raw_dims: [0; 3],
+        raw_skip: 0,
+        raw_type: MORULA_RAW_U8,
+        reserved: 0,
+    }
+);
+versioned!(
+    morula_solid_options,
+    56,
+    morula_solid_options {
+        struct_size: size_of::<Self>(),
+        resolution: MORULA_RESOLUTION_CELLS_LONGEST,
+        cells: 64,
+        cell_size: 0.0,
+        memory_limit: 2 << 30,
+        padding: 4,
+        threads: 1,
+        progress: None,
+        user: std::ptr::null_mut(),
+    }
+);
+versioned!(
+    morula_clump_options,
+    120,
+    morula_clump_options {
+        struct_size: size_of::<Self>(),
+        spheres: 50,
+        mismatch: 0.0,
+        min_radius: 0.0,
+        min_distance: 0.0,
+        radius_offset: 0.0,
+        deadline_seconds: 0.0,
+        seed: 0,
+        method: MORULA_METHOD_MSS,
+        confine: 0,
+        threads: 1,
+        frame: MORULA_FRAME_INPUT,
+        wants: MORULA_WANT_MOMENTS,
+        quality_columns: 0,
+        plane_tolerances: std::ptr::null(),
+        plane_tolerance_count: 0,
+        progress: None,
+        user: std::ptr::null_mut(),
+    }
+);
+/// All-zero structs: every field of these is a number.
+macro_rules! filled {
+    ($($name:ident $first:expr),*) => {$(
+        versioned!($name, $first, unsafe { std::mem::zeroed() });
+    )*};
+}
+filled!(
+    morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 64,
+    morula_counters 112
+);
+
+#[cfg(all(test, target_pointer_width = "64"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sizes_of_the_first_release_are_those_of_the_structs_or_less() {
+        // Equal while nothing was appended: then an end belongs into ADDED.
+        assert_eq!(size_of::<morula_import_options>(), morula_import_options::FIRST);
+        assert_eq!(size_of::<morula_file_options>(), morula_file_options::FIRST);
+        assert_eq!(size_of::<morula_solid_options>(), morula_solid_options::FIRST);
+        assert_eq!(size_of::<morula_clump_options>(), morula_clump_options::FIRST);
+        assert_eq!(size_of::<morula_report>(), morula_report::FIRST);
+        assert_eq!(size_of::<morula_moments>(), morula_moments::FIRST);
+        assert_eq!(size_of::<morula_overlap>(), morula_overlap::FIRST);
+        assert_eq!(size_of::<morula_surface>(), morula_surface::FIRST);
+        assert_eq!(size_of::<morula_counters>(), morula_counters::FIRST);
+    }
+}
