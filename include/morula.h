@@ -938,7 +938,8 @@ int32_t morula_solid_grid(const struct morula_solid *solid,
 /// in the caller's unit and frame; `distances` has room for `count` numbers.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; NOT_FINITE (a coordinate);
 /// INVALID_ARGUMENT (a point farther than 1e100 sizes of the body); TOO_LARGE;
-/// INTERNAL.
+/// MEMORY_LIMIT (the tree over the surface, which the first call makes);
+/// OUT_OF_MEMORY; INTERNAL.
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_solid_distance(const struct morula_solid *solid,
                               size_t count,

@@ -227,7 +227,7 @@ fn an_open_mesh_has_the_moments_of_its_winding_number() {
         .collect();
     mesh.clean = false;
     let m = of(&mesh);
-    let w = Winding::new(&mesh);
+    let w = Winding::new(&mesh).unwrap();
     // Brute force: the winding number at the centres of 40³ cells.
     let n = 40;
     let mut cells = vec![0u8; n * n * n];

@@ -97,7 +97,7 @@ fn confined_spheres_stay_within_the_triangles() {
                 let d = depth(&mesh, &s.center);
                 assert!(s.radius <= d + 1e-12, "{}: {} and {d}", p.name(), s.radius);
                 let unit = solid.frame().to_unit(&s.center);
-                assert!(solid.surface().contains(&unit));
+                assert!(solid.surface(&Run::serial()).unwrap().contains(&unit));
             }
         }
     }

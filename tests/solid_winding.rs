@@ -35,7 +35,7 @@ fn scattered(n: usize) -> impl Iterator<Item = Vec3> {
 
 /// The tree is near the exact sum, and decides alike unless that is near ½.
 fn close_to_exact(mesh: &Mesh, points: usize) {
-    let w = Winding::new(mesh);
+    let w = Winding::new(mesh).unwrap();
     for p in scattered(points) {
         let (tree, exact) = (w.at(&p), w.exact(&p));
         assert!((tree - exact).abs() < ERROR, "{tree} instead of {exact} at {p}");
@@ -77,14 +77,14 @@ fn close_to_the_exact_sum_on_open_and_crossing_meshes_and_soups() {
 
 #[test]
 fn a_mesh_without_faces_has_no_inside() {
-    let w = Winding::new(&Mesh::default());
+    let w = Winding::new(&Mesh::default()).unwrap();
     assert_eq!(w.at(&Vec3::zeros()), 0.0);
 }
 
 #[test]
 fn on_a_vertex_edge_or_face_the_number_is_finite() {
     let mesh = primitive("box", 8);
-    let w = Winding::new(&mesh);
+    let w = Winding::new(&mesh).unwrap();
     for i in 0..mesh.faces.len() {
         let [a, b, c] = mesh.corners(i);
         for p in [a, (a + b) * 0.5, (a + b + c) / 3.0] {
@@ -97,7 +97,7 @@ fn on_a_vertex_edge_or_face_the_number_is_finite() {
 /// Inside by winding number is inside by crossings.
 fn alike(mesh: &Mesh, name: &str) {
     assert!(mesh.clean, "{name}");
-    let w = Winding::new(mesh);
+    let w = Winding::new(mesh).unwrap();
     let hi = mesh.vertices.iter().fold(Vec3::zeros(), |m, v| m.sup(v));
     let n = 24;
     for axis in 0..3 {

@@ -147,7 +147,8 @@ pub unsafe extern "C" fn morula_solid_grid(
 /// in the caller's unit and frame; `distances` has room for `count` numbers.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; NOT_FINITE (a coordinate);
 /// INVALID_ARGUMENT (a point farther than 1e100 sizes of the body); TOO_LARGE;
-/// INTERNAL.
+/// MEMORY_LIMIT (the tree over the surface, which the first call makes);
+/// OUT_OF_MEMORY; INTERNAL.
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_solid_distance(
@@ -177,9 +178,10 @@ pub unsafe extern "C" fn morula_solid_distance(
         }
         // Made whole first: an error or panic must leave the caller's array as it was.
         let mut found = crate::error::reserve("the distances", count)?;
+        let surface = solid.surface(&Run::serial())?;
         for p in points.chunks_exact(3) {
             let p = solid.frame().to_unit(&Vec3::from_column_slice(p));
-            found.push(solid.surface().signed_distance(&p) * solid.frame().scale);
+            found.push(surface.signed_distance(&p) * solid.frame().scale);
         }
         unsafe { super::guard::copy_out(&found, count, distances, "distances") }
     })

@@ -123,7 +123,7 @@ pub fn quality(
         let union = Union::new(&unit, run.pool())?;
         // As many samples to the lattice's finest area for any number of columns.
         let wanted = (64 * options.columns).clamp(1024, 1 << 16);
-        let f = surface::surface(solid.surface(), solid.body(), whole, &union, wanted, run)?;
+        let f = surface::surface(solid.surface(run)?, solid.body(), whole, &union, wanted, run)?;
         run.count(|c| c.exact_distances += f.distances);
         q.protrusion = f.protrusion * scale;
         q.rms_distance = f.rms * scale;

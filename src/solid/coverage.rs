@@ -29,7 +29,7 @@ const AT_ONCE: usize = 1 << 21;
 /// `padding` cells clear around it.
 pub fn inside(body: &Body, grid: &Grid, padding: usize, run: &Run) -> Result<Vec<u8>> {
     let k = match body {
-        Body::Mesh(m) if !m.clean && wide_open(m) => COLUMNS_OPEN,
+        Body::Mesh(m) if !m.clean && wide_open(m)? => COLUMNS_OPEN,
         _ => COLUMNS,
     };
     covered(body, grid, padding, k, run)

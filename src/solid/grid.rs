@@ -1,6 +1,5 @@
 //! The grid of a solid and how fine it is.
 
-use super::nearest::Surface;
 use super::{Solid, SolidOptions, coverage, moments};
 use crate::error::{Error, Result, filled};
 use crate::math::{Moments, Vec3};
@@ -97,7 +96,7 @@ const ACROSS_BOX: f64 = 4.0;
 /// diameter of a rod; a third of a ball's).
 const ACROSS_THICKNESS: f64 = 1.5;
 
-/// Makes the solid: grid, inside, surface, moments.
+/// Makes the solid: grid, inside, moments.
 pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<Solid> {
     if options.padding < 2 {
         return Err(Error::InvalidArgument(format!(
@@ -123,14 +122,13 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
             c.cells += cells;
             c.peak_bytes = c.peak_bytes.max(cells);
         });
-        let surface = Surface::new(&shape.body)?;
         Ok(Solid {
             body: Arc::clone(&shape.body),
             frame: shape.frame,
             grid,
             inside,
             distance: OnceLock::new(),
-            surface,
+            surface: OnceLock::new(),
             moments,
             notes,
             memory_limit: options.memory_limit,

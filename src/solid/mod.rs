@@ -15,7 +15,7 @@ pub mod winding;
 pub use columns::Columns;
 pub use grid::{Grid, Resolution};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::math::{Moments, PrincipalFrame, Sphere, UnitFrame, Vec3};
 use crate::run::Run;
 use crate::shape::{Body, Shape};
@@ -39,14 +39,15 @@ impl Default for SolidOptions {
     }
 }
 
-/// A shape with a grid. The signed distance field is made when first asked for.
+/// A shape with a grid. The signed distance field and the tree over the surface are made when
+/// first asked for.
 pub struct Solid {
     body: Arc<Body>,
     frame: UnitFrame,
     grid: Grid,
     inside: Vec<u8>,
     distance: OnceLock<Vec<f32>>,
-    surface: Surface,
+    surface: OnceLock<Surface>,
     moments: Moments,
     notes: Vec<String>,
     memory_limit: u64,
@@ -73,9 +74,22 @@ impl Solid {
         &self.inside
     }
 
-    /// Exact distances to the surface.
-    pub fn surface(&self) -> &Surface {
-        &self.surface
+    /// Exact distances to the surface: a tree over it, made when first asked for.
+    pub fn surface(&self, run: &Run) -> Result<&Surface> {
+        if self.surface.get().is_none() {
+            let room = self.memory_limit.saturating_sub(self.bytes());
+            let surface = Surface::within(&self.body, room)?;
+            let _ = self.surface.set(surface);
+            run.count(|c| c.peak_bytes = c.peak_bytes.max(self.bytes()));
+        }
+        self.surface.get().ok_or_else(|| Error::Internal("the surface was not kept".into()))
+    }
+
+    /// Bytes of the large arrays that it holds.
+    pub(crate) fn bytes(&self) -> u64 {
+        let cells = self.grid.len() as u64;
+        let distance = self.distance.get().map_or(0, |d| 4 * d.len() as u64);
+        cells + distance + self.surface.get().map_or(0, |s| s.bytes())
     }
 
     /// Volume, centroid, inertia at unit density, in the caller's frame.

@@ -36,7 +36,7 @@ pub fn moments(body: &Body, run: &Run) -> Result<Moments> {
                 return Err(Error::Empty("the mesh has no face".into()));
             };
             if !(mesh.clean || closed(mesh)?) {
-                let n = if wide_open(mesh) { WIDE_OPEN } else { OPEN };
+                let n = if wide_open(mesh)? { WIDE_OPEN } else { OPEN };
                 return by_columns(body, lo, hi, n, run);
             }
             let exact = of_polyhedron(mesh, &((lo + hi) * 0.5), run);
@@ -64,16 +64,16 @@ pub fn moments(body: &Body, run: &Run) -> Result<Moments> {
 
 /// Whether the openings are felt in a tenth of the box or more: the winding number there, on
 /// 8³ points, is far from whole.
-pub(super) fn wide_open(mesh: &Mesh) -> bool {
+pub(super) fn wide_open(mesh: &Mesh) -> Result<bool> {
     const N: usize = 8;
-    let Some((lo, hi)) = bounds(mesh) else { return false };
-    let winding = Winding::new(mesh);
+    let Some((lo, hi)) = bounds(mesh) else { return Ok(false) };
+    let winding = Winding::new(mesh)?;
     let felt = (0..N * N * N).filter(|q| {
         let at = [q % N, q / N % N, q / (N * N)].map(|i| (i as f64 + 0.5) / N as f64);
         let w = winding.at(&(lo + (hi - lo).component_mul(&Vec3::from(at))));
         (w - w.round()).abs() > 0.05
     });
-    10 * felt.count() >= N * N * N
+    Ok(10 * felt.count() >= N * N * N)
 }
 
 /// Corners of the box about the faces.

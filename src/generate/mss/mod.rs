@@ -42,7 +42,7 @@ const DEEP: f32 = 0.5;
 /// Makes a clump by MSS.
 pub(super) fn mss(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     run.check(0.0, "measuring the distances of cells")?;
-    let target = Target::of(solid, run)?;
+    let target = Target::of(solid, options.confine, run)?;
     let cell = target.cell() * solid.frame().scale;
     let rules = Rules {
         offset: options.radius_offset,

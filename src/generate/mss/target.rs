@@ -10,6 +10,7 @@ use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::shape::Body;
 use crate::solid::Solid;
+use crate::solid::nearest::Surface;
 
 /// The target on a lattice whose unit is the cell, with the centre of cell (0, 0, 0) as origin.
 pub(super) struct Target<'a> {
@@ -31,16 +32,19 @@ struct Truth<'a> {
     /// Length of one cell in the unit frame.
     cell: f64,
     mesh: bool,
+    /// Where exact distances are asked for.
+    surface: Option<&'a Surface>,
 }
 
 impl<'a> Target<'a> {
-    /// The target of a solid.
-    pub fn of(solid: &'a Solid, run: &Run) -> Result<Target<'a>> {
+    /// The target of a solid; `confine`: spheres are held to its true surface.
+    pub fn of(solid: &'a Solid, confine: bool, run: &Run) -> Result<Target<'a>> {
         let grid = solid.grid();
         let (cell, step) = cell_and_step(&grid.spacing);
         let mut target = Target::of_cells(solid.inside(), grid.dims, step, run)?;
         let mesh = matches!(solid.body(), Body::Mesh(_));
-        target.truth = Some(Truth { solid, cell, mesh });
+        let surface = if mesh || confine { Some(solid.surface(run)?) } else { None };
+        target.truth = Some(Truth { solid, cell, mesh, surface });
         Ok(target)
     }
 
@@ -102,7 +106,7 @@ impl<'a> Target<'a> {
         let (depth, _) = self.rims.depth(p, bound);
         match &self.truth {
             Some(t) if t.mesh => {
-                let exact = t.exact(&self.lattice, p);
+                let exact = t.exact(&self.lattice, p).unwrap_or(depth);
                 if (exact - depth).abs() <= 1.0 { exact } else { depth }
             }
             _ => depth,
@@ -120,10 +124,10 @@ impl<'a> Target<'a> {
     pub fn limit(&self, p: &[f64; 3]) -> Option<f64> {
         match &self.truth {
             Some(t) => t
-                .solid
-                .surface()
+                .surface?
                 .contains(&t.unit(&self.lattice, p))
-                .then(|| t.exact(&self.lattice, p) * (1.0 - 4.0 * f64::EPSILON)),
+                .then(|| t.exact(&self.lattice, p))?
+                .map(|d| d * (1.0 - 4.0 * f64::EPSILON)),
             None => self.solid_at(p).then(|| self.depth(p)),
         }
     }
@@ -146,8 +150,8 @@ impl Truth<'_> {
         Vec3::from_fn(|a, _| grid.origin[a] + (p[a] / lattice.step[a] + 0.5) * grid.spacing[a])
     }
 
-    fn exact(&self, lattice: &Lattice, p: &[f64; 3]) -> f64 {
-        self.solid.surface().nearest(&self.unit(lattice, p)).distance / self.cell
+    fn exact(&self, lattice: &Lattice, p: &[f64; 3]) -> Option<f64> {
+        Some(self.surface?.nearest(&self.unit(lattice, p)).distance / self.cell)
     }
 }
 

@@ -106,7 +106,7 @@ impl Cones {
             closed.faces.push([b, a, (mesh.vertices.len() + k) as u32]);
         }
         // The tree wants the cones alone; the mesh's own faces come after.
-        let winding = Winding::new(&closed);
+        let winding = Winding::new(&closed)?;
         closed.faces.extend_from_slice(&mesh.faces);
         Ok(Cones { closed, winding, parts })
     }

@@ -64,7 +64,7 @@ pub(super) fn bands(
     let rule = if border.len() < mesh.faces.len() {
         Rule::Closed(Cones::new(mesh, border)?)
     } else {
-        Rule::Tree(Winding::new(mesh))
+        Rule::Tree(Winding::new(mesh)?)
     };
     let binned = match &rule {
         Rule::Closed(cones) => Binned::new(&cones.closed, lattice)?,
@@ -232,7 +232,7 @@ mod tests {
             assert_eq!(border.is_empty(), hole == 0);
             let cones = Cones::new(&mesh, &border).unwrap();
             assert!(super::super::closed(&cones.closed).unwrap());
-            let exact = Winding::new(&mesh);
+            let exact = Winding::new(&mesh).unwrap();
             for axis in 0..3 {
                 let n = 14;
                 let lattice = Lattice::straight(axis, [n, n], [0.0; 2], [1.0 / n as f64; 2]);

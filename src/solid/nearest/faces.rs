@@ -29,8 +29,9 @@ impl Rectangle {
     }
 }
 
-/// All faces between solid and empty cells (or the end of the array).
-pub(super) fn rectangles(v: &Voxels) -> Result<Vec<Rectangle>> {
+/// All faces between solid and empty cells (or the end of the array), at most `most` and one
+/// row more: then there are too many.
+pub(super) fn rectangles(v: &Voxels, most: u64) -> Result<Vec<Rectangle>> {
     let [nx, ny, nz] = v.dims;
     let cells = nx.checked_mul(ny).and_then(|n| n.checked_mul(nz));
     if cells != Some(v.cells.len()) {
@@ -63,6 +64,9 @@ pub(super) fn rectangles(v: &Voxels) -> Result<Vec<Rectangle>> {
                     };
                     let place = Place { axis, up, u, w, plane: n + usize::from(up), b };
                     merge_row(&place, v.dims[u], exposed, &mut open, &mut all)?;
+                    if all.len() as u64 > most {
+                        return Ok(all);
+                    }
                 }
             }
         }
@@ -164,7 +168,7 @@ mod tests {
     #[test]
     fn a_block_is_six_rectangles() {
         let v = Voxels { dims: [3, 4, 5], spacing: Vec3::repeat(1.0), cells: vec![1; 60] };
-        let all = rectangles(&v).unwrap();
+        let all = rectangles(&v, u64::MAX).unwrap();
         assert_eq!(all.len(), 6);
         let areas: Vec<_> = all.iter().map(|r| [0, 1, 2].map(|a| r.hi[a] - r.lo[a])).collect();
         assert_eq!(areas, [[0, 4, 5], [0, 4, 5], [3, 0, 5], [3, 0, 5], [3, 4, 0], [3, 4, 0]]);
@@ -194,7 +198,7 @@ mod tests {
             }
         }
         let area = |r: &Rectangle| (0..3).map(|a| (r.hi[a] - r.lo[a]).max(1)).product::<u32>();
-        let all = rectangles(&v).unwrap();
+        let all = rectangles(&v, u64::MAX).unwrap();
         assert_eq!(all.iter().map(area).sum::<u32>(), expected);
         assert!((all.len() as u32) < expected);
     }

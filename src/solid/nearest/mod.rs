@@ -12,6 +12,7 @@ use faces::{Occupied, Rectangle};
 use parry3d::bounding_volume::Aabb;
 use parry3d::math::Vector;
 use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
+use std::mem::size_of;
 
 /// What is nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +30,16 @@ pub struct Nearest {
 pub struct Surface {
     tree: Bvh,
     leaves: Leaves,
+    bytes: u64,
 }
+
+/// Bytes of the tree for each leaf: two nodes side by side, links to parents and from leaves;
+/// and of what building it takes besides: boxes, and the leaves once more.
+const TREE: u64 = (2 * size_of::<BvhNode>() + 3 * size_of::<usize>()) as u64;
+const BUILDING: u64 = (size_of::<Aabb>() + size_of::<BvhNode>()) as u64;
+/// … and of a triangle and of a rectangle.
+const TRIANGLE: u64 = size_of::<[Vec3; 3]>() as u64;
+const RECTANGLE: u64 = size_of::<Rectangle>() as u64;
 
 /// What the leaves of the tree are.
 enum Leaves {
@@ -42,13 +52,26 @@ enum Leaves {
 impl Surface {
     /// Builds the tree.
     pub fn new(body: &Body) -> Result<Surface> {
+        Surface::within(body, u64::MAX)
+    }
+
+    /// The same, refused where it may take more than `limit` bytes.
+    pub fn within(body: &Body, limit: u64) -> Result<Surface> {
         match body {
-            Body::Mesh(mesh) => Surface::of_mesh(mesh),
-            Body::Voxels(voxels) => Surface::of_voxels(voxels),
+            Body::Mesh(mesh) => Surface::of_mesh(mesh, limit),
+            Body::Voxels(voxels) => Surface::of_voxels(voxels, limit),
         }
     }
 
-    fn of_mesh(mesh: &Mesh) -> Result<Surface> {
+    /// Bytes that it holds (estimate from the sizes of its arrays).
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    fn of_mesh(mesh: &Mesh, limit: u64) -> Result<Surface> {
+        let faces = mesh.faces.len() as u64;
+        let winding = Winding::most_bytes(mesh.faces.len());
+        check(faces, faces * (TREE + BUILDING + TRIANGLE) + winding, limit)?;
         let mut triangles = reserve("the surface tree", mesh.faces.len())?;
         for (i, face) in mesh.faces.iter().enumerate() {
             if face.iter().any(|&v| v as usize >= mesh.vertices.len()) {
@@ -65,20 +88,29 @@ impl Surface {
         }
         let mut boxes = reserve("the surface tree", triangles.len())?;
         boxes.extend(triangles.iter().map(|[a, b, c]| bounds(a.inf(b).inf(c), a.sup(b).sup(c))));
-        let tree = build(&boxes)?;
-        Ok(Surface { tree, leaves: Leaves::Triangles(triangles, Winding::new(mesh)) })
+        let tree = build(boxes)?;
+        let winding = Winding::new(mesh)?;
+        let bytes = faces * (TREE + TRIANGLE) + winding.bytes();
+        Ok(Surface { tree, leaves: Leaves::Triangles(triangles, winding), bytes })
     }
 
-    fn of_voxels(voxels: &Voxels) -> Result<Surface> {
-        let rectangles = faces::rectangles(voxels)?;
+    fn of_voxels(voxels: &Voxels, limit: u64) -> Result<Surface> {
+        let bits = voxels.cells.len() as u64 / 8;
+        let total = |faces: u64| bits + faces * (TREE + BUILDING + RECTANGLE);
+        // How many rectangles there are is known when they are made, so they are counted then.
+        let most = limit.saturating_sub(bits) / (TREE + BUILDING + RECTANGLE);
+        let rectangles = faces::rectangles(voxels, most)?;
+        let found = rectangles.len() as u64;
+        check(found, total(found), limit)?;
         let occupied = Occupied::new(voxels)?;
         let mut boxes = reserve("the surface tree", rectangles.len())?;
         boxes.extend(rectangles.iter().map(|r| {
             let (lo, hi) = r.bounds(&voxels.spacing);
             bounds(lo, hi)
         }));
-        let tree = build(&boxes)?;
-        Ok(Surface { tree, leaves: Leaves::Rectangles(rectangles, occupied) })
+        let tree = build(boxes)?;
+        let bytes = bits + found * (TREE + RECTANGLE);
+        Ok(Surface { tree, leaves: Leaves::Rectangles(rectangles, occupied), bytes })
     }
 
     /// The nearest point of the surface. Of a point that is not finite: `p` itself, at the
@@ -142,14 +174,28 @@ fn bounds(lo: Vec3, hi: Vec3) -> Aabb {
     Aabb { mins: Vector::new(lo.x, lo.y, lo.z), maxs: Vector::new(hi.x, hi.y, hi.z) }
 }
 
-fn build(boxes: &[Aabb]) -> Result<Bvh> {
+/// Refuses a surface that may take more than `limit` bytes.
+fn check(faces: u64, bytes: u64, limit: u64) -> Result<()> {
+    if bytes > limit {
+        return Err(Error::MemoryLimit(format!(
+            "a tree over the surface of {faces} faces may take {bytes} bytes, more than the \
+             {limit} that are left of the limit"
+        )));
+    }
+    Ok(())
+}
+
+fn build(boxes: Vec<Aabb>) -> Result<Bvh> {
     if boxes.is_empty() {
         return Err(Error::Empty("the surface has no face".into()));
     }
     if boxes.len() >= 1 << 30 {
         return Err(Error::TooLarge(format!("the surface has {} faces", boxes.len())));
     }
-    Ok(Bvh::from_leaves(BvhBuildStrategy::Binned, boxes))
+    // Parry reserves infallibly: see first that so much is to be had.
+    let bytes = (TREE + BUILDING) as usize * boxes.len();
+    drop(reserve::<u8>("the surface tree", bytes)?);
+    Ok(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
 }
 
 #[cfg(test)]

@@ -150,7 +150,7 @@ fn picture(
 /// Signed distance from the target's surface at every sample of the clump, in
 /// percent of the equivalent diameter; positive beyond the surface.
 fn errors(solid: &Solid, clump: &Buffer, diameter: f64, run: &Run) -> morula::Result<Vec<f32>> {
-    let field = solid.distance(run)?;
+    let (field, surface) = (solid.distance(run)?, solid.surface(run)?);
     let grid = solid.grid();
     let last = grid.center(grid.dims[0] - 1, grid.dims[1] - 1, grid.dims[2] - 1);
     let first = grid.center(0, 0, 0);
@@ -162,11 +162,8 @@ fn errors(solid: &Solid, clump: &Buffer, diameter: f64, run: &Run) -> morula::Re
                 let [u, v] = clump.plane(x, y);
                 let p = clump.camera.unproject([u, v, f64::from(s.depth)]);
                 let on_grid = (0..3).all(|a| p[a] >= first[a] && p[a] <= last[a]);
-                let d = if on_grid {
-                    grid.trilinear(field, &p)
-                } else {
-                    solid.surface().signed_distance(&p)
-                };
+                let d =
+                    if on_grid { grid.trilinear(field, &p) } else { surface.signed_distance(&p) };
                 *e = (100.0 * d / diameter) as f32;
             }
         }

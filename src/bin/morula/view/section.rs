@@ -32,7 +32,7 @@ pub fn draw(
     run: &Run,
 ) -> morula::Result<()> {
     const FINE: usize = 3;
-    let field = solid.distance(run)?;
+    let (field, surface) = (solid.distance(run)?, solid.surface(run)?);
     let grid = solid.grid();
     let buffer = Buffer::new(size[0], size[1], FINE, camera)?;
     let camera = &buffer.camera;
@@ -64,7 +64,7 @@ pub fn draw(
                     let off = (0..3).any(|a| p[a] < lo[a] || p[a] > hi[a]);
                     let mut to_target = if off { 1e30 } else { grid.trilinear(field, &p) };
                     if to_target.abs() < near {
-                        to_target = solid.surface().signed_distance(&p);
+                        to_target = surface.signed_distance(&p);
                     }
                     to_target = (to_target * camera.scale).min(1e30);
                     let mut to_union = f64::MAX;
