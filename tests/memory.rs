@@ -14,7 +14,7 @@ fn ball(segments: usize) -> Shape {
 }
 
 fn faces(shape: &Shape) -> u64 {
-    shape.report.faces as u64
+    shape.report.faces
 }
 
 #[test]
@@ -25,7 +25,8 @@ fn the_tree_over_the_surface_is_made_when_asked_for() {
         SolidOptions { resolution: Resolution::CellsLongest(16), ..SolidOptions::default() };
     let solid = Solid::new(&shape, &options, &run).unwrap();
     let cells = solid.grid().len() as u64;
-    assert!(faces(&shape) > 30_000 && run.counters().peak_bytes < 2 * cells);
+    assert!(faces(&shape) > 10_000, "{}", faces(&shape));
+    assert_eq!(run.counters().peak_bytes, cells);
     // The overlap needs no tree either.
     let overlap = QualityOptions { surface: false, columns: 32, ..QualityOptions::default() };
     let spheres = [Sphere::new(Vec3::zeros(), 0.9)];
@@ -60,7 +61,7 @@ fn voxel_faces_beyond_the_limit_are_refused() {
     // A sponge: every second cell along each axis is missing, so no two faces merge for long.
     let n = 48usize;
     let mask: Vec<u8> = (0..n * n * n)
-        .map(|c| u8::from(c % n % 2 == 0 || c / n % n % 2 == 0 || c / (n * n) % 2 == 0))
+        .map(|c| u8::from([c % n, c / n % n, c / (n * n)].iter().any(|i| i & 1 == 0)))
         .collect();
     let layout = Layout { dims: [n; 3], spacing: [1.0; 3], origin: [0.0; 3] };
     let import = ImportOptions { bodies: Bodies::All, ..ImportOptions::default() };
