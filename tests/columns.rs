@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use morula::math::Vec3;
 use morula::run::Pool;
 use morula::shape::{Body, Mesh, Voxels};
@@ -14,27 +16,9 @@ fn mesh(vertices: &[[f64; 3]], faces: &[[u32; 3]]) -> Mesh {
     Mesh { vertices, faces: faces.to_vec(), clean: true }
 }
 
-/// A box, outward.
 fn cuboid(lo: [f64; 3], hi: [f64; 3]) -> Mesh {
-    let mut v = Vec::new();
-    for i in 0..8 {
-        v.push([0, 1, 2].map(|k| if i >> k & 1 == 1 { hi[k] } else { lo[k] }));
-    }
-    let f = [
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ];
-    mesh(&v, &f)
+    let (vertices, faces) = common::cuboid(lo, hi);
+    mesh(&vertices, &faces)
 }
 
 /// A surface of revolution about z, closed over both angles (torus) or from pole to pole (sphere).

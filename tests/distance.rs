@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod common;
+
+use common::cube;
 use morula::math::Vec3;
 use morula::shape::{Bodies, Body, ImportOptions, Layout, Primitive, Shape};
 use morula::solid::{Resolution, Solid, SolidOptions};
@@ -119,26 +122,14 @@ fn a_tetrahedron_with_large_faces_is_exact_in_every_cell() {
 #[test]
 fn defective_meshes_follow_the_winding_number() {
     let run = Run::serial();
-    let cube = |lo: [f64; 3], e: f64, v: &mut Vec<[f64; 3]>, f: &mut Vec<[u32; 3]>| {
-        let base = v.len() as u32;
-        for k in 0..8 {
-            v.push([0, 1, 2].map(|a| lo[a] + if k >> a & 1 == 1 { e } else { 0.0 }));
-        }
-        for q in
-            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
-        {
-            f.push([q[0], q[1], q[2]].map(|i| i + base));
-            f.push([q[0], q[2], q[3]].map(|i| i + base));
-        }
-    };
-    let (mut v, mut f) = (Vec::new(), Vec::new());
-    cube([0.0; 3], 1.0, &mut v, &mut f);
-    cube([0.53, 0.41, 0.37], 1.0, &mut v, &mut f);
+    let (mut v, mut f) = cube([0.0; 3], 1.0);
+    let (w, g) = cube([0.53, 0.41, 0.37], 1.0);
+    v.extend(w);
+    f.extend(g.iter().map(|t| t.map(|i| i + 8)));
     let crossing = Shape::from_mesh(&v, &f, &any_body(), &run).unwrap();
     check("crossing boxes", &crossing, 24, 3);
 
-    let (mut v, mut f) = (Vec::new(), Vec::new());
-    cube([0.0; 3], 1.0, &mut v, &mut f);
+    let (v, mut f) = cube([0.0; 3], 1.0);
     f.pop();
     let open = Shape::from_mesh(&v, &f, &any_body(), &run).unwrap();
     let (worst, signs) = errors(&solid_of(&open, 20), 1);

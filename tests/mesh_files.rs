@@ -2,18 +2,13 @@
 //! Needs `MORULA_DATA`.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+mod common;
+
+use common::data;
 use morula::shape::read::FileOptions;
 use morula::shape::{Bodies, Report};
 use morula::{Error, Run, Shape};
 use std::path::{Path, PathBuf};
-
-fn data() -> Option<PathBuf> {
-    let dir = std::env::var_os("MORULA_DATA").map(PathBuf::from);
-    if dir.is_none() {
-        println!("skipped: MORULA_DATA is not set");
-    }
-    dir
-}
 
 fn load(path: &Path, bodies: Bodies) -> Result<Shape, Error> {
     let mut options = FileOptions::default();

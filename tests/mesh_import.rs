@@ -1,35 +1,11 @@
 //! Meshes from arrays: checks, welding, repair, report.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod common;
+
+use common::{Arrays, cube};
 use morula::shape::{Bodies, Body, ImportOptions, Mesh};
 use morula::{Error, Run, Shape};
-
-type Arrays = (Vec<[f64; 3]>, Vec<[u32; 3]>);
-
-/// A unit cube with its lower corner at `at`.
-fn cube(at: [f64; 3], edge: f64) -> Arrays {
-    let v = (0..8)
-        .map(|i| {
-            let bit = |k: usize| if i >> k & 1 == 1 { edge } else { 0.0 };
-            [at[0] + bit(0), at[1] + bit(1), at[2] + bit(2)]
-        })
-        .collect();
-    let f = vec![
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ];
-    (v, f)
-}
 
 /// Every face with corners of its own, as STL has them.
 fn soup(m: &Arrays) -> Arrays {

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod common;
+
 use morula::math::{Inertia, Moments, Vec3};
 use morula::shape::read::FileOptions;
 use morula::shape::{Bodies, Body, ImportOptions, Mesh, Primitive, Voxels};
@@ -14,25 +16,9 @@ fn of(mesh: &Mesh) -> Moments {
     moments(&Body::Mesh(mesh.clone()), &Run::serial()).unwrap()
 }
 
-/// Corners counted x fastest, faces outward.
 fn cuboid(lo: [f64; 3], hi: [f64; 3]) -> Mesh {
-    let vertices =
-        (0..8).map(|c| Vec3::from_fn(|a, _| if c >> a & 1 == 1 { hi[a] } else { lo[a] })).collect();
-    let faces = vec![
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ];
-    Mesh { vertices, faces, clean: true }
+    let (vertices, faces) = common::cuboid(lo, hi);
+    Mesh { vertices: vertices.into_iter().map(Vec3::from).collect(), faces, clean: true }
 }
 
 fn joined(a: &Mesh, b: &Mesh) -> Mesh {
@@ -339,11 +325,7 @@ fn table(path: &std::path::Path, columns: &[&str]) -> Vec<Vec<String>> {
 
 #[test]
 fn real_particles_have_the_volumes_that_others_found() {
-    let Ok(data) = std::env::var("MORULA_DATA") else {
-        println!("skipped: MORULA_DATA is not set");
-        return;
-    };
-    let data = std::path::Path::new(&data);
+    let Some(data) = common::data() else { return };
     let mut options = FileOptions::default();
     options.import.bodies = Bodies::All;
     let volume = |path: &str| {

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod common;
+
 use morula::math::Vec3;
 use morula::run::Pool;
 use morula::shape::read::FileOptions;
@@ -127,14 +129,11 @@ fn inside_by_winding_number_is_inside_by_crossings() {
     for name in Primitive::NAMES {
         alike(&primitive(name, 24), name);
     }
-    let Ok(data) = std::env::var("MORULA_DATA") else {
-        println!("skipped: MORULA_DATA is not set");
-        return;
-    };
+    let Some(data) = common::data() else { return };
     let mut options = FileOptions::default();
     options.import.bodies = Bodies::All;
     for name in ["classic/armadillo.obj", "classic/bunny.obj", "classic/spot_low_resolution.obj"] {
-        let path = std::path::Path::new(&data).join(name);
+        let path = data.join(name);
         let shape = Shape::from_file(&path, &options, &Run::serial()).unwrap();
         if let Body::Mesh(m) = &*shape.body
             && m.clean

@@ -2,6 +2,9 @@
 #![cfg(feature = "io")]
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod common;
+
+use common::data;
 use morula::error::Error;
 use morula::shape::read::{FileOptions, Format, Meaning, RawType, file_labels};
 use morula::shape::voxels::Threshold;
@@ -9,7 +12,6 @@ use morula::shape::{Bodies, Body, ImportOptions};
 use morula::{Result, Run, Shape};
 use proptest::prelude::*;
 use std::io::Cursor;
-use std::path::PathBuf;
 use tiff::encoder::{TiffEncoder, colortype};
 
 fn options() -> FileOptions {
@@ -357,15 +359,6 @@ proptest! {
         let format = Some([Format::Npy, Format::Tiff][which]);
         let _ = read(&bytes, name, &FileOptions { format, ..options() });
     }
-}
-
-/// The folder of third-party data, when there is one.
-fn data() -> Option<PathBuf> {
-    let folder = std::env::var_os("MORULA_DATA").map(PathBuf::from);
-    if folder.is_none() {
-        println!("skipped: MORULA_DATA is not set");
-    }
-    folder
 }
 
 #[test]
