@@ -2,6 +2,9 @@
 //! same arguments, the same structs with the same fields, the same constants.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+mod common;
+
+use common::c_header::{self, Declaration};
 use std::collections::BTreeMap;
 
 fn read(name: &str) -> String {
@@ -22,68 +25,22 @@ struct Interface {
 
 // ---- C ----
 
-fn c_interface(header: &str) -> Interface {
-    let mut found = Interface::default();
-    let code: String = header
-        .lines()
-        .filter(|l| !l.trim_start().starts_with("///"))
-        .collect::<Vec<_>>()
-        .join("\n");
-    for line in code.lines() {
-        let words: Vec<&str> = line.split_whitespace().collect();
-        if let ["#define", name, value] = words[..]
-            && let Ok(value) = value.parse()
-        {
-            found.constants.insert(name.to_owned(), value);
-        }
+fn c_interface() -> Interface {
+    let header = c_header::read();
+    let kind =
+        |d: &Declaration| c_kind(&d.of) + &d.dim.map(|n| format!("({n})")).unwrap_or_default();
+    let functions = header.functions.iter().map(|(name, (result, parameters))| {
+        let kinds = parameters.iter().map(kind).chain([c_kind(result)]);
+        (name.clone(), kinds.collect())
+    });
+    let structs = header.structs.iter().map(|(name, fields)| {
+        (name.clone(), fields.iter().map(|f| (f.name.clone(), kind(f))).collect())
+    });
+    Interface {
+        functions: functions.collect(),
+        structs: structs.collect(),
+        constants: header.constants,
     }
-    for part in code.split("typedef struct ").skip(1) {
-        let Some((name, rest)) = part.split_once(" {") else { continue };
-        if name.contains(';') {
-            continue;
-        }
-        let body = rest.split('}').next().unwrap();
-        let fields = body.split(';').map(str::trim).filter(|f| !f.is_empty());
-        let fields = fields.map(|f| {
-            let (kind, name) = c_declaration(f);
-            (name, kind)
-        });
-        found.structs.insert(name.to_owned(), fields.collect());
-    }
-    let flat = code.split_whitespace().collect::<Vec<_>>().join(" ");
-    for statement in flat.split(';') {
-        let Some((head, arguments)) = statement.rsplit_once('(') else { continue };
-        let Some(arguments) = arguments.strip_suffix(')') else { continue };
-        if head.contains("typedef") {
-            continue;
-        }
-        // The last two words: the result's type and the name.
-        let Some(at) = head.find("morula_") else { continue };
-        let (result, name) = head.split_at(at);
-        let result = ["void", "const char *", "int32_t", "uint32_t", "size_t"]
-            .into_iter()
-            .find(|r| {
-                result.trim().ends_with(r.trim())
-                    && (*r != "int32_t" || !result.contains("uint32_t"))
-            })
-            .unwrap();
-        let mut kinds: Vec<Kind> =
-            arguments.split(", ").filter(|a| *a != "void").map(|a| c_declaration(a).0).collect();
-        kinds.push(c_kind(result));
-        found.functions.insert(name.to_owned(), kinds);
-    }
-    found
-}
-
-/// Kind and name of `const double *vertices`, `double centre[3]` …
-fn c_declaration(text: &str) -> (Kind, String) {
-    let text = text.replace("struct ", "");
-    let (text, dim) = match text.split_once('[') {
-        Some((t, d)) => (t.to_owned(), format!("({})", d.trim_end_matches(']'))),
-        None => (text, String::new()),
-    };
-    let at = text.rfind([' ', '*']).unwrap() + 1;
-    (c_kind(&text[..at]) + &dim, text[at..].to_owned())
 }
 
 fn c_kind(c: &str) -> Kind {
@@ -205,7 +162,7 @@ fn same(c: &str, fortran: &str) -> bool {
 
 #[test]
 fn functions_have_the_same_names_and_arguments() {
-    let c = c_interface(&read("morula.h")).functions;
+    let c = c_interface().functions;
     let fortran = fortran_interface(&read("morula.f90")).functions;
     assert!(c.len() > 45, "only {} functions were found in the header", c.len());
     let names = |m: &BTreeMap<String, Vec<Kind>>| m.keys().cloned().collect::<Vec<_>>();
@@ -221,7 +178,7 @@ fn functions_have_the_same_names_and_arguments() {
 
 #[test]
 fn structs_have_the_same_fields() {
-    let c = c_interface(&read("morula.h")).structs;
+    let c = c_interface().structs;
     let fortran = fortran_interface(&read("morula.f90")).structs;
     assert_eq!(c.len(), 9);
     assert_eq!(c.keys().collect::<Vec<_>>(), fortran.keys().collect::<Vec<_>>());
@@ -237,7 +194,7 @@ fn structs_have_the_same_fields() {
 
 #[test]
 fn constants_have_the_same_values() {
-    let c = c_interface(&read("morula.h")).constants;
+    let c = c_interface().constants;
     let fortran = fortran_interface(&read("morula.f90")).constants;
     assert!(c.len() > 60);
     assert_eq!(c, fortran);
@@ -253,7 +210,7 @@ fn the_fortran_example_calls_every_function() {
     ))
     .unwrap();
     let body = module.split("\ncontains\n").last().unwrap();
-    for name in c_interface(&read("morula.h")).functions.keys() {
+    for name in c_interface().functions.keys() {
         let called = format!("{name}(");
         if example.contains(&called) {
             continue;

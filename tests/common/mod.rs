@@ -2,6 +2,8 @@
 // Each of them uses some of it.
 #![allow(dead_code, clippy::print_stdout)]
 
+pub mod c_header;
+
 use std::path::PathBuf;
 
 /// Vertices and triangles.
