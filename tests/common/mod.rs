@@ -1,6 +1,6 @@
 //! What several tests start from.
 // Each of them uses some of it.
-#![allow(dead_code, clippy::print_stdout)]
+#![allow(dead_code, clippy::panic, clippy::print_stdout, clippy::unwrap_used)]
 
 pub mod c_header;
 
