@@ -135,7 +135,7 @@ pub struct Counters {
     pub peak_bytes: u64,
     /// Distance transforms run.
     pub transforms: u64,
-    /// Exact point–surface distances that the quality figures asked for.
+    /// Exact point–surface distances that the generator and the quality figures asked for.
     pub exact_distances: u64,
     /// Local maxima looked at.
     pub maxima: u64,

@@ -80,6 +80,59 @@ fn two_spheres_off_the_grid_are_found_without_bias() {
     }
 }
 
+/// A cube with a slot of the given width, from the top down to a third of its height.
+fn slotted(width: f64) -> Triangles {
+    let (xs, ys) = ([0.0, 0.5 - width / 2.0, 0.5 + width / 2.0, 1.0], [0.0, 0.3, 1.0]);
+    let at = |i: usize, j: usize, top: usize| (i + 4 * (j + 3 * top)) as u32;
+    let mut mesh = Triangles::default();
+    for n in 0..24 {
+        mesh.0.push([xs[n % 4], ys[n / 4 % 3], (n / 12) as f64]);
+    }
+    let solid = |i: i32, j: i32| (0..3).contains(&i) && (0..2).contains(&j) && (i, j) != (1, 1);
+    let mut quad = |q: [u32; 4]| mesh.1.extend([[q[0], q[1], q[2]], [q[0], q[2], q[3]]]);
+    for (i, j) in (0..6).map(|n| (n % 3, n / 3)).filter(|(i, j)| solid(*i, *j)) {
+        let (a, b) = (i as usize, j as usize);
+        let ring = [(a, b), (a + 1, b), (a + 1, b + 1), (a, b + 1)];
+        quad(ring.map(|(x, y)| at(x, y, 1)));
+        quad([3, 2, 1, 0].map(|n| at(ring[n].0, ring[n].1, 0)));
+        for (n, (di, dj)) in [(0, -1), (1, 0), (0, 1), (-1, 0)].into_iter().enumerate() {
+            if !solid(i + di, j + dj) {
+                let (p, q) = (ring[n], ring[(n + 1) % 4]);
+                quad([at(p.0, p.1, 0), at(q.0, q.1, 0), at(q.0, q.1, 1), at(p.0, p.1, 1)]);
+            }
+        }
+    }
+    mesh
+}
+
+#[test]
+fn a_slot_finer_than_the_cells_still_bounds_the_radii() {
+    let mesh = slotted(0.004);
+    let solid = solid(&mesh, 24);
+    // No cell shows the slot.
+    let full = solid.inside().iter().filter(|c| **c != 0).count();
+    assert_eq!(full, 24 * 24 * 24);
+    let clump = make(&solid, 30, false, 0.0);
+    assert_eq!(clump.spheres.len(), 30);
+    let surface = solid.surface(&Run::serial()).unwrap();
+    for s in &clump.spheres {
+        let d = depth(&mesh, &s.center);
+        assert!((s.radius - d).abs() < 1e-9, "{s:?} is {d} deep");
+        assert!(surface.contains(&solid.frame().to_unit(&s.center)), "{s:?}");
+    }
+    assert!(clump.counters.exact_distances > 0);
+}
+
+#[test]
+fn surfaces_within_the_solid_bound_nothing() {
+    let ball = Primitive::Sphere { radius: 1.0 }.mesh(32).unwrap();
+    let mut mesh = ball.clone();
+    mesh.0.extend(ball.0.iter().map(|v| v.map(|x| 0.4 * x)));
+    mesh.1.extend(ball.1.iter().map(|f| f.map(|i| i + ball.0.len() as u32)));
+    let s = make(&solid(&mesh, 24), 1, false, 0.0).spheres[0];
+    assert!((s.radius - 1.0).abs() < 0.05, "{s:?}");
+}
+
 #[test]
 fn confined_spheres_stay_within_the_triangles() {
     let shapes = [

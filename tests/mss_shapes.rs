@@ -261,6 +261,15 @@ fn criteria_apply_alone_and_together() {
         }
     }
 
+    // The small ball is too small, but too near as well: that alone is no reason.
+    let knob = balls(&[([20.0; 3], 14.0), ([36.0, 20.0, 20.0], 4.0)]);
+    let (solid, _) = cells([44, 40, 40], [1.0; 3], &knob);
+    let far = GenerateOptions { min_radius: 5.0, min_distance: 30.0, ..ask(5) };
+    let clump = make(&solid, &far);
+    assert_eq!((clump.spheres.len(), clump.stopped), (1, Stopped::Exhausted), "{}", clump.note);
+    let clump = make(&solid, &GenerateOptions { min_distance: 12.0, ..far });
+    assert_eq!((clump.spheres.len(), clump.stopped), (1, Stopped::Radius), "{}", clump.note);
+
     let none = GenerateOptions { min_radius: 100.0, ..ask(3) };
     let refusal = generate(&solid, &none, &Run::serial()).unwrap_err();
     assert!(matches!(refusal, morula::Error::NoSpheres(_)), "{refusal}");
@@ -287,6 +296,43 @@ fn a_deadline_leaves_a_sphere_and_a_cancel_what_there_is() {
     let run = Run::serial().with_progress(Box::new(|_| true));
     let refusal = generate(&solid, &ask(30), &run).unwrap_err();
     assert!(matches!(refusal, morula::Error::Cancelled(_)));
+}
+
+#[test]
+fn the_caller_is_asked_while_spheres_settle() {
+    let inside = |p: [f64; 3]| {
+        ((p[0] - 23.3) / 20.0).powi(2)
+            + ((p[1] - 14.2) / 11.0).powi(2)
+            + ((p[2] - 12.9) / 9.0).powi(2)
+            < 1.0
+    };
+    let (solid, mask) = cells([47, 29, 26], [1.0; 3], &inside);
+    let asked = |stop_at: usize| {
+        let mut calls = 0;
+        let run = Run::serial().with_progress(Box::new(|_| {
+            calls += 1;
+            calls > stop_at
+        }));
+        let clump = generate(&solid, &ask(10), &run);
+        drop(run);
+        (calls, clump)
+    };
+    let (calls, whole) = asked(usize::MAX);
+    // Each of ten spheres is asked about once, and moving those before it once for each.
+    assert!(calls > 40, "{calls}");
+    assert_eq!(whole.unwrap().spheres.len(), 10);
+    let mut last = 1.0;
+    for stop_at in (4..calls).step_by(9) {
+        let (after, clump) = asked(stop_at);
+        let clump = clump.unwrap();
+        // All were there already when the last of them settled.
+        let last_ones = clump.stopped == Stopped::Spheres && clump.spheres.len() == 10;
+        assert!(clump.stopped == Stopped::Cancelled || last_ones, "{stop_at}: {}", clump.note);
+        assert_eq!(after, stop_at + 1);
+        let d = mismatch(&mask, [47, 29, 26], [1.0; 3], &clump.spheres);
+        assert!(d <= last, "{d} after {last}");
+        last = d;
+    }
 }
 
 #[test]
@@ -330,6 +376,7 @@ fn a_single_cell_is_one_sphere() {
     let clump = make(&solid, &ask(5));
     assert_eq!(clump.spheres.len(), 1);
     assert_eq!(clump.stopped, Stopped::Exhausted);
+    assert!(!clump.note.contains("distance"), "{}", clump.note);
     assert!((clump.spheres[0].radius - 0.5).abs() < 0.01);
 }
 

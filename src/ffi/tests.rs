@@ -69,7 +69,8 @@ fn counters_cover_the_whole_road() {
         assert!(c.cells > 0 && c.peak_bytes >= c.cells && c.transforms > 0 && c.maxima > 0);
     }
     // What was not wanted costs nothing.
-    assert_eq!((a.seconds_measure, a.columns, a.exact_distances), (0.0, 0, 0));
+    assert_eq!((a.seconds_measure, a.columns), (0.0, 0));
+    assert_eq!(a.exact_distances, b.exact_distances);
     assert!(b.seconds_measure > 0.0 && b.columns > 0);
     // The same work, counted once on either road.
     assert_eq!(

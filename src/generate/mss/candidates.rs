@@ -45,6 +45,11 @@ impl Fields {
         self.field.len() * 4 + self.rest.len() * 8
     }
 
+    /// Bits that are overwritten in each round.
+    pub fn spare(&mut self) -> &mut [u64] {
+        &mut self.rest
+    }
+
     /// The maxima of E.
     pub fn of_target(&mut self, target: &Target, run: &Run) -> Vec<Place> {
         let found = peaks(target, &target.distance, run);

@@ -11,7 +11,7 @@
 //! figures are in docs/mss.md.
 
 use super::lattice::Lattice;
-use crate::error::{Result, filled, reserve};
+use crate::error::{Result, filled};
 
 /// Cells along each edge of a bucket.
 const BUCKET: usize = 8;
@@ -45,19 +45,24 @@ impl Rims {
         };
         let mut starts =
             filled("the buckets of the rim", dims.iter().product::<usize>() + 1, 0u32)?;
-        let mut cells = Vec::new();
-        rim_cells(lattice, bits, |c| cells.push(c));
-        for c in &cells {
-            starts[bucket(c) + 1] += 1;
-        }
+        rim_cells(lattice, bits, |c| starts[bucket(&c) + 1] += 1);
         for n in 1..starts.len() {
             starts[n] += starts[n - 1];
         }
-        cells.sort_by_key(|c| bucket(c));
-        let mut rims = reserve("the rim", cells.len())?;
-        rims.extend(
-            cells.into_iter().map(|cell| Rim { cell, beyond: beyond(lattice, bits, &cell) }),
-        );
+        let count = starts.last().map_or(0, |n| *n as usize);
+        let mut rims = filled("the rim", count, Rim { cell: [0; 3], beyond: 0.0 })?;
+        // Each start moves to its end, which is the next one's start.
+        rim_cells(lattice, bits, |cell| {
+            let next = &mut starts[bucket(&cell)];
+            if let Some(rim) = rims.get_mut(*next as usize) {
+                *rim = Rim { cell, beyond: beyond(lattice, bits, &cell) };
+            }
+            *next += 1;
+        });
+        starts.rotate_right(1);
+        if let Some(first) = starts.first_mut() {
+            *first = 0;
+        }
         Ok(Rims { dims, step: lattice.step, starts, rims })
     }
 

@@ -7,12 +7,15 @@
 //! still uncovered lead to further spheres.
 
 mod candidates;
+mod center;
+mod counts;
 mod depth;
 mod lattice;
 mod maxima;
 mod residue;
 mod select;
 mod settle;
+mod slots;
 mod subvoxel;
 mod symmetry;
 mod target;
@@ -24,9 +27,10 @@ use crate::error::{Error, Result, filled};
 use crate::run::Run;
 use crate::solid::Solid;
 use candidates::Fields;
+use counts::Counts;
 use lattice::Ball;
 use residue::Residue;
-use select::{Counts, Pool, Rules};
+use select::{Pool, Rules, stop};
 use settle::{SETTLING, settle};
 use target::Target;
 
@@ -50,7 +54,9 @@ pub(super) fn mss(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result
         min_distance: options.min_distance,
         confine: options.confine,
     };
-    let made = grow(&target, rules, options.spheres, options.mismatch, run)?;
+    let made = grow(&target, rules, options.spheres, options.mismatch, run);
+    run.count(|c| c.exact_distances += target.asked());
+    let made = made?;
     let spheres = made.balls.iter().map(|b| target.sphere(b)).collect::<Vec<_>>();
     let note = note(&made, options, spheres.len());
     Ok(Clump { spheres, stopped: made.stopped, note, quality: None, counters: run.counters() })
@@ -96,6 +102,9 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
             let Some(choice) =
                 pool.best(target, &covered, &counts, &balls, limit - balls.len(), run)
             else {
+                if stop(run, &balls) {
+                    continue; // The checks above say why.
+                }
                 break;
             };
             // New places may be better than what is left of the old ones.
@@ -130,8 +139,11 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
                 orbits.push(added);
             }
             if settles && orbits.len() > 1 && reached != Some(Stopped::Mismatch) {
-                settle(&pool, target, &mut orbits, &mut covered, &mut counts);
-                balls = orbits.concat();
+                let cells = [covered.as_mut_slice(), fields.spare()];
+                if settle(&pool, target, &mut orbits, cells, &mut counts, run) {
+                    balls = orbits.concat();
+                    pool.renew(target, &Residue::count(&target.lattice, &target.bits, &covered)?);
+                }
                 if aim > 0.0 && counts.mismatch() <= aim {
                     reached = Some(Stopped::Mismatch);
                 }
@@ -142,7 +154,10 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
         }
         if balls.len() == before && led {
             if part == 0.0 {
-                break if pool.too_small { Stopped::Radius } else { Stopped::Exhausted };
+                break match pool.small_one_helps(target, &covered, &counts, &balls) {
+                    true => Stopped::Radius,
+                    false => Stopped::Exhausted,
+                };
             }
             part = 0.0;
         }
@@ -181,10 +196,15 @@ fn note(made: &Made, options: &GenerateOptions, n: usize) -> String {
         }
         Stopped::Deadline => format!("{of}: the deadline passed"),
         Stopped::Cancelled => format!("{of}: cancelled by the caller"),
-        Stopped::Exhausted => format!(
-            "{of}: no further sphere at a distance of {} cells or more brings the mismatch on \
-             the grid below {d:.4}; a finer grid takes more",
-            options.min_distance
-        ),
+        Stopped::Exhausted => {
+            let apart = match options.min_distance {
+                0.0 => String::new(),
+                least => format!(" at a distance of {least} cells or more"),
+            };
+            format!(
+                "{of}: no further sphere{apart} brings the mismatch on the grid below {d:.4}; a \
+                 finer grid takes more"
+            )
+        }
     }
 }

@@ -3,9 +3,10 @@
 //! go together.
 
 use super::candidates::Place;
+use super::center::refined;
+use super::counts::Counts;
 use super::lattice::{Ball, distance_squared};
 use super::residue::Residue;
-use super::subvoxel::along_axis;
 use super::target::Target;
 use crate::run::Run;
 use std::cmp::Ordering;
@@ -20,37 +21,20 @@ pub(super) struct Rules {
     pub confine: bool,
 }
 
-/// Cell counts of the clump and the target.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Counts {
-    pub target: u64,
-    pub inside: u64,
-    pub outside: u64,
-}
-
-impl Counts {
-    /// D of equation 27.
-    pub fn mismatch(&self) -> f64 {
-        1.0 - 2.0 * self.inside as f64 / (self.target + self.inside + self.outside) as f64
-    }
-
-    /// The counts after a gain.
-    pub fn with(&self, gain: (u64, u64)) -> Counts {
-        Counts { inside: self.inside + gain.0, outside: self.outside + gain.1, ..*self }
-    }
-}
-
 /// A place with what is known about it.
 struct Candidate {
     place: Place,
     /// The spheres of the orbit, once they have been looked at.
     orbit: Vec<Ball>,
     tried: bool,
+    /// Refused for its radius, which never changes.
+    small: bool,
 }
 
 /// An entry of the heap: a candidate and its new inside cells a sphere, less what its outside
 /// cells cost, when it was last looked at; before that, a bound from its volume. Both can
-/// but fall while the clump grows (the second nearly so: outside cells may be taken by others).
+/// but fall while the clump grows (the second nearly so: outside cells may be taken by others);
+/// when spheres move, [`Pool::renew`] makes the bounds anew.
 #[derive(Clone, Copy)]
 struct Entry {
     bound: f64,
@@ -91,7 +75,7 @@ enum Look {
         orbit: Vec<Ball>,
         gain: (f64, f64),
     },
-    TooSmall,
+    TooSmall(Vec<Ball>),
     Never,
 }
 
@@ -116,43 +100,85 @@ impl Best {
 /// Candidates evaluated together, so that threads have work.
 const TOGETHER: usize = 8;
 
+/// The caller is asked whether to go on once for so many batches of candidates.
+const ASK: usize = 16;
+
 /// All places found so far.
 pub(super) struct Pool {
     rules: Rules,
     candidates: Vec<Candidate>,
     heap: BinaryHeap<Entry>,
-    /// Whether a place was refused for its radius alone.
-    pub too_small: bool,
 }
 
 impl Pool {
     pub fn new(rules: Rules) -> Pool {
-        Pool { rules, candidates: Vec::new(), heap: BinaryHeap::new(), too_small: false }
+        Pool { rules, candidates: Vec::new(), heap: BinaryHeap::new() }
     }
 
     /// Takes in places, and lowers the bounds of those before to the uncovered cells around them.
     pub fn add(&mut self, target: &Target, places: Vec<Place>, residue: &Residue) {
-        let step = target.lattice.step;
-        let cell = step[0] * step[1] * step[2];
         for place in places {
-            let r = (place.deep + self.rules.offset).max(0.0);
-            let shell = (r.powi(3) - place.covered.min(r).powi(3)).max(0.0);
-            let bound = 4.0 / 3.0 * std::f64::consts::PI * shell / cell + 1.0;
+            let bound = self.bound(target, &place, place.covered);
             self.heap.push(Entry { bound, index: self.candidates.len() });
-            self.candidates.push(Candidate { place, orbit: Vec::new(), tried: false });
+            self.candidates.push(Candidate {
+                place,
+                orbit: Vec::new(),
+                tried: false,
+                small: false,
+            });
         }
-        let entries = std::mem::take(&mut self.heap).into_iter().filter_map(|mut entry| {
-            let place = &self.candidates.get(entry.index)?.place;
-            let radius = (place.deep + self.rules.offset).max(0.0);
-            entry.bound = entry.bound.min(residue.bound(&Ball { center: place.center, radius }));
-            (entry.bound > 0.0).then_some(entry)
-        });
-        self.heap = entries.collect();
+        let entries = std::mem::take(&mut self.heap).into_iter();
+        self.heap = entries.filter_map(|e| self.lowered(e, residue)).collect();
+    }
+
+    /// Puts every place back that has ever been found, but those that are too small, with the
+    /// bound of its whole ball: spheres have moved, and where they were a place that gained
+    /// little, or nothing, may gain again.
+    pub fn renew(&mut self, target: &Target, residue: &Residue) {
+        let places = self.candidates.iter().enumerate().filter(|(_, c)| !c.small);
+        self.heap = places
+            .filter_map(|(index, c)| {
+                self.lowered(Entry { bound: self.bound(target, &c.place, 0.0), index }, residue)
+            })
+            .collect();
+    }
+
+    /// No fewer than the cells that a sphere at the place has outside of a ball about it.
+    fn bound(&self, target: &Target, place: &Place, covered: f64) -> f64 {
+        let [a, b, c] = target.lattice.step;
+        let r = (place.deep + self.rules.offset).max(0.0);
+        let shell = (r.powi(3) - covered.min(r).powi(3)).max(0.0);
+        4.0 / 3.0 * std::f64::consts::PI * shell / (a * b * c) + 1.0
+    }
+
+    /// The entry with no more than the uncovered cells around its place; none without any.
+    fn lowered(&self, entry: Entry, residue: &Residue) -> Option<Entry> {
+        let place = &self.candidates.get(entry.index)?.place;
+        let radius = (place.deep + self.rules.offset).max(0.0);
+        let bound = entry.bound.min(residue.bound(&Ball { center: place.center, radius }));
+        (bound > 0.0).then_some(Entry { bound, ..entry })
+    }
+
+    /// Whether a place that was refused for its radius would bring D down.
+    pub fn small_one_helps(
+        &self,
+        target: &Target,
+        covered: &[u64],
+        counts: &Counts,
+        chosen: &[Ball],
+    ) -> bool {
+        self.candidates.iter().filter(|c| c.small).any(|c| {
+            match self.measure(target, covered, chosen, c.orbit.clone()) {
+                Look::Good { gain, .. } => counts.score(gain) > 0.0,
+                _ => false,
+            }
+        })
     }
 
     /// The orbit that brings D down most a sphere, or none that does. `chosen` are the spheres so
     /// far, `room` is for how many more there is room: an orbit that needs more is cut, and
-    /// one that fits is taken instead when it does a fair part as well.
+    /// one that fits is taken instead when it does a fair part as well. None as well when the
+    /// caller cancels or, but for the first sphere, when the deadline passes.
     pub fn best(
         &mut self,
         target: &Target,
@@ -163,11 +189,16 @@ impl Pool {
         run: &Run,
     ) -> Option<Choice> {
         let mismatch = counts.mismatch();
-        let score = |gain: (f64, f64)| (1.0 + mismatch) * gain.0 - (1.0 - mismatch) * gain.1;
+        let score = |gain| counts.score(gain);
         let mut best: Option<Best> = None;
         let mut cut: Option<Best> = None;
         let mut looked: Vec<Entry> = Vec::new();
-        loop {
+        let mut interrupted = false;
+        for round in 1.. {
+            if round % ASK == 0 && stop(run, chosen) {
+                interrupted = true;
+                break;
+            }
             let mut batch = Vec::new();
             let score_of = |b: &Option<Best>| b.as_ref().map_or(0.0, |b| b.score);
             let least = score_of(&best).max(FAIR * score_of(&cut));
@@ -192,7 +223,11 @@ impl Pool {
             for (entry, look) in batch.into_iter().zip(looks) {
                 match look {
                     Look::Never => {}
-                    Look::TooSmall => self.too_small = true,
+                    Look::TooSmall(orbit) => {
+                        if let Some(c) = self.candidates.get_mut(entry.index) {
+                            (c.orbit, c.small) = (orbit, true);
+                        }
+                    }
                     Look::Good { orbit, gain } => {
                         let index = entry.index;
                         let s = score(gain);
@@ -217,6 +252,7 @@ impl Pool {
             (None, c) => c,
             (b, _) => b,
         };
+        let best = if interrupted { None } else { best };
         let winner = best.as_ref().map(|b| b.index);
         let mut taken = None;
         for entry in looked {
@@ -297,7 +333,7 @@ impl Pool {
             }
         }
         if orbit.iter().any(|b| b.radius < self.rules.min_radius) {
-            return Look::TooSmall;
+            return Look::TooSmall(orbit);
         }
         self.measure(target, covered, chosen, orbit)
     }
@@ -320,29 +356,11 @@ impl Pool {
     }
 }
 
-/// A maximum of E made exact: the lines of section 3.3 on the true depth about the point, with
-/// the grid moved to it and made finer, as the paper suggests.
-fn refined(target: &Target, center: &[f64; 3]) -> [f64; 3] {
-    let mut here = *center;
-    target.mirrors.snap(&mut here);
-    let mut depth = target.depth(&here);
-    for width in [1.0, 0.5, 0.25] {
-        let mut next = here;
-        for a in 0..3 {
-            let step = width * target.lattice.step[a];
-            let e = std::array::from_fn(|n| {
-                let mut q = here;
-                q[a] += (n as f64 - 2.0) * step;
-                if target.solid_at(&q) { target.depth(&q) } else { 0.0 }
-            });
-            next[a] += along_axis(&e).0 * step;
-        }
-        target.mirrors.snap(&mut next);
-        let deeper = if target.solid_at(&next) { target.depth(&next) } else { 0.0 };
-        if deeper <= depth {
-            break;
-        }
-        (here, depth) = (next, deeper);
-    }
-    here
+/// Whether the caller or the deadline ends the work, that is not without a sphere.
+pub(super) fn stop(run: &Run, chosen: &[Ball]) -> bool {
+    run.cancelled(0.0) || (!chosen.is_empty() && run.late())
 }
+
+#[cfg(test)]
+#[path = "select_tests.rs"]
+mod tests;

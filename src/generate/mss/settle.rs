@@ -3,9 +3,11 @@
 //! spheres is poor once there are five (on an ellipsoid the mismatch of five
 //! spheres falls by half); with more, the next spheres make up for it.
 
+use super::counts::Counts;
 use super::lattice::{Ball, Lattice};
-use super::select::{Counts, Pool};
+use super::select::{Pool, stop};
 use super::target::Target;
+use crate::run::Run;
 
 /// Up to this many spheres settle.
 pub(super) const SETTLING: usize = 10;
@@ -13,15 +15,21 @@ pub(super) const SETTLING: usize = 10;
 /// First step of a move, as a part of the radius.
 const STRIDE: f64 = 0.25;
 
-/// Moves each orbit in turn; `covered` and `counts` follow. D never rises.
+/// Moves each orbit in turn, until the caller or the deadline ends it; `covered` and `counts`
+/// follow, `spare` is as long as `covered`. D never rises. Whether an orbit moved.
 pub(super) fn settle(
     pool: &Pool,
     target: &Target,
     orbits: &mut [Vec<Ball>],
-    covered: &mut [u64],
+    [covered, spare]: [&mut [u64]; 2],
     counts: &mut Counts,
-) {
+    run: &Run,
+) -> bool {
+    let mut any = false;
     for n in 0..orbits.len() {
+        if orbits.first().is_some_and(|first| stop(run, first)) {
+            break;
+        }
         covered.fill(0);
         let mut rest = Counts { target: target.cells, ..Counts::default() };
         let mut others = Vec::new();
@@ -33,17 +41,19 @@ pub(super) fn settle(
         }
         let Some(orbit) = orbits.get_mut(n) else { continue };
         if let Some(moved) = moved(pool, target, orbit, covered, &rest, &others) {
-            let mut trial = covered.to_vec();
-            let next = rest.with(cover(&target.lattice, &moved, target, &mut trial));
+            spare.copy_from_slice(covered);
+            let next = rest.with(cover(&target.lattice, &moved, target, spare));
             if next.mismatch() < counts.mismatch() {
                 *counts = next;
                 *orbit = moved;
-                covered.copy_from_slice(&trial);
+                covered.copy_from_slice(spare);
+                any = true;
                 continue;
             }
         }
         cover(&target.lattice, orbit, target, covered);
     }
+    any
 }
 
 fn cover(lattice: &Lattice, orbit: &[Ball], target: &Target, covered: &mut [u64]) -> (u64, u64) {

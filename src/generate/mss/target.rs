@@ -3,14 +3,16 @@
 
 use super::depth::Rims;
 use super::lattice::{Ball, Lattice};
+use super::slots::without_slots;
 use super::symmetry::Mirrors;
 use super::transform;
 use crate::error::{Error, Result, filled};
 use crate::math::{Sphere, Vec3};
 use crate::run::Run;
-use crate::shape::Body;
-use crate::solid::Solid;
+use crate::shape::{Body, Mesh};
 use crate::solid::nearest::Surface;
+use crate::solid::{Grid, Solid};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The target on a lattice whose unit is the cell, with the centre of cell (0, 0, 0) as origin.
 pub(super) struct Target<'a> {
@@ -22,7 +24,8 @@ pub(super) struct Target<'a> {
     /// E: distance from each solid cell to the nearest empty one.
     pub distance: Vec<f32>,
     pub mirrors: Mirrors,
-    rims: Rims,
+    /// Not for meshes whose every triangle is a boundary of the solid.
+    rims: Option<Rims>,
     truth: Option<Truth<'a>>,
 }
 
@@ -34,6 +37,8 @@ struct Truth<'a> {
     mesh: bool,
     /// Where exact distances are asked for.
     surface: Option<&'a Surface>,
+    /// How many of them were.
+    asked: AtomicU64,
 }
 
 impl<'a> Target<'a> {
@@ -41,20 +46,22 @@ impl<'a> Target<'a> {
     pub fn of(solid: &'a Solid, confine: bool, run: &Run) -> Result<Target<'a>> {
         let grid = solid.grid();
         let (cell, step) = cell_and_step(&grid.spacing);
-        let mut target = Target::of_cells(solid.inside(), grid.dims, step, run)?;
         let mesh = matches!(solid.body(), Body::Mesh(_));
+        let mut target = Target::bare(solid.inside(), grid.dims, step, run)?;
+        match solid.body() {
+            // Neither open nor crossing itself: every triangle is a boundary of the solid.
+            Body::Mesh(m) if m.clean && solid.unit_moments().relative_error == 0.0 => {
+                target.keep_off_slots(m, grid, run)?;
+            }
+            _ => target.rims = Some(Rims::find(&target.lattice, &target.bits)?),
+        }
         let surface = if mesh || confine { Some(solid.surface(run)?) } else { None };
-        target.truth = Some(Truth { solid, cell, mesh, surface });
+        target.truth = Some(Truth { solid, cell, mesh, surface, asked: AtomicU64::new(0) });
         Ok(target)
     }
 
-    /// The target of bare cells.
-    pub fn of_cells(
-        mask: &[u8],
-        dims: [usize; 3],
-        step: [f64; 3],
-        run: &Run,
-    ) -> Result<Target<'a>> {
+    /// The target of bare cells, whose depth is not known.
+    fn bare(mask: &[u8], dims: [usize; 3], step: [f64; 3], run: &Run) -> Result<Target<'a>> {
         let lattice = Lattice::new(dims, step);
         let bits = lattice.pack(mask)?;
         let cells = bits.iter().map(|w| u64::from(w.count_ones())).sum();
@@ -64,14 +71,23 @@ impl<'a> Target<'a> {
         let mut distance = filled("the distance transform", mask.len(), 0f32)?;
         transform::distance(&lattice, &bits, dims, &mut distance, run.pool());
         run.count(|c| c.transforms += 1);
-        let rims = Rims::find(&lattice, &bits)?;
         let mirrors = Mirrors::find(&lattice, &bits);
-        Ok(Target { lattice, bits, cells, distance, mirrors, rims, truth: None })
+        Ok(Target { lattice, bits, cells, distance, mirrors, rims: None, truth: None })
+    }
+
+    /// Where the mesh has gaps that no cell shows, E becomes the distance to them as well.
+    fn keep_off_slots(&mut self, mesh: &Mesh, grid: &Grid, run: &Run) -> Result<()> {
+        let l = &self.lattice;
+        if let Some(bits) = without_slots(mesh, grid, l, &self.bits, &self.distance)? {
+            transform::distance(l, &bits, l.dims, &mut self.distance, run.pool());
+            run.count(|c| c.transforms += 1);
+        }
+        Ok(())
     }
 
     /// Bytes of the arrays.
     pub fn bytes(&self) -> usize {
-        self.bits.len() * 8 + self.distance.len() * 4 + self.rims.bytes()
+        self.bits.len() * 8 + self.distance.len() * 4 + self.rims.as_ref().map_or(0, Rims::bytes)
     }
 
     /// Length of a cell in the unit frame.
@@ -95,20 +111,20 @@ impl<'a> Target<'a> {
         std::array::from_fn(|a| (p[a] / self.lattice.step[a]).round() as i64)
     }
 
-    /// The radius of the greatest ball about `p` that stays in the solid, in cells. Meshes:
-    /// the exact distance, unless the nearest triangle is no boundary of the cells (one that
-    /// lies within an overlap of bodies). Voxels: see [`super::depth`].
+    /// The radius of the greatest ball about `p` that stays in the solid, in cells; not above zero
+    /// when `p` is outside. Meshes: the exact distance, but, where the surface crosses itself or
+    /// is open, that to the cells when the nearest triangle is no boundary of them (it lies
+    /// within an overlap of bodies). Voxels: see [`super::depth`].
     pub fn depth(&self, p: &[f64; 3]) -> f64 {
+        let exact = || self.truth.as_ref().and_then(|t| t.signed(&self.lattice, p));
+        let Some(rims) = &self.rims else { return exact().unwrap_or(0.0) };
         let c = self.cell_of(p);
         let away: f64 = (0..3).map(|a| (p[a] - c[a] as f64 * self.lattice.step[a]).powi(2)).sum();
         let widest = self.lattice.step.iter().fold(0.0, |m: f64, s| m.max(*s));
         let bound = (f64::from(self.at(c)).max(widest) + away.sqrt()) * (1.0 + 1e-6);
-        let (depth, _) = self.rims.depth(p, bound);
-        match &self.truth {
-            Some(t) if t.mesh => {
-                let exact = t.exact(&self.lattice, p).unwrap_or(depth);
-                if (exact - depth).abs() <= 1.0 { exact } else { depth }
-            }
+        let (depth, _) = rims.depth(p, bound);
+        match if self.images_differ() { exact() } else { None } {
+            Some(exact) if (exact - depth).abs() <= 1.0 => exact,
             _ => depth,
         }
     }
@@ -132,6 +148,11 @@ impl<'a> Target<'a> {
         }
     }
 
+    /// How many exact distances were asked for.
+    pub fn asked(&self) -> u64 {
+        self.truth.as_ref().map_or(0, |t| t.asked.load(Ordering::Relaxed))
+    }
+
     /// The ball as a sphere in the caller's frame.
     pub fn sphere(&self, ball: &Ball) -> Sphere {
         match &self.truth {
@@ -151,7 +172,17 @@ impl Truth<'_> {
     }
 
     fn exact(&self, lattice: &Lattice, p: &[f64; 3]) -> Option<f64> {
+        self.asked.fetch_add(1, Ordering::Relaxed);
         Some(self.surface?.nearest(&self.unit(lattice, p)).distance / self.cell)
+    }
+
+    /// The distance, below zero outside. Only near the surface is a point in a solid cell outside.
+    fn signed(&self, lattice: &Lattice, p: &[f64; 3]) -> Option<f64> {
+        let distance = self.exact(lattice, p)?;
+        let reach: f64 = lattice.step.iter().map(|s| s * s).sum();
+        let near = distance * distance <= reach;
+        let outside = near && !self.surface?.contains(&self.unit(lattice, p));
+        Some(if outside { -distance } else { distance })
     }
 }
 
