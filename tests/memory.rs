@@ -81,3 +81,29 @@ fn voxel_faces_beyond_the_limit_are_refused() {
     let e = with(limit).surface(&Run::serial()).err().unwrap();
     assert!(matches!(e, Error::MemoryLimit(_)) && e.to_string().contains("bytes"), "{e}");
 }
+
+/// A great many columns are compared band by band: the memory they take grows with one side.
+#[test]
+fn columns_take_little_memory_or_are_refused() {
+    let shape = ball(24);
+    let spheres = [Sphere::new(Vec3::zeros(), 0.9), Sphere::new(Vec3::new(0.2, 0.1, 0.0), 0.8)];
+    let with = |memory_limit, columns| {
+        let options = SolidOptions {
+            resolution: Resolution::CellsLongest(16),
+            memory_limit,
+            ..SolidOptions::default()
+        };
+        let solid = Solid::new(&shape, &options, &Run::serial()).unwrap();
+        let options = QualityOptions { surface: false, columns, ..QualityOptions::default() };
+        let run = Run::serial();
+        let q = quality(&solid, &spheres, &options, &run);
+        (q, run.counters().peak_bytes)
+    };
+    // 1400² columns: as many bytes as columns would do for none but a single byte of each.
+    let (q, peak) = with(6 << 20, 1024);
+    assert!(q.unwrap().mismatch > 0.0 && peak > 1 << 20 && peak < 6 << 20, "{peak}");
+    let (q, _) = with(6 << 20, 8192);
+    let e = q.unwrap_err();
+    assert!(matches!(e, Error::MemoryLimit(_)), "{e}");
+    assert!(e.to_string().contains("columns") && e.to_string().contains("left of"), "{e}");
+}

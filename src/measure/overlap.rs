@@ -4,13 +4,15 @@
 use super::QualityOptions;
 use crate::error::{Error, Result};
 use crate::math::{Inertia, Moments, PrincipalFrame, Sphere, Vec3};
-use crate::run::{Pool, Run};
+use crate::run::Run;
 use crate::shape::Body;
 use crate::solid::Solid;
-use crate::solid::columns::{Columns, Lattice};
+use crate::solid::columns::{BAND, Band, Lattice, Rows};
 
-/// Rows of columns summed together: fixed, so that sums do not depend on the threads.
-const ROWS: usize = 8;
+/// Bands of rows summed between two looks at the caller's cancel.
+const GROUP: usize = 64;
+/// Bytes of a column of a band, with what making it takes (a few crossings).
+const COLUMN: u64 = 256;
 
 /// What the columns say. Unit frame.
 #[derive(Debug, Clone, Copy)]
@@ -98,46 +100,66 @@ pub(super) fn overlap(
     options: &QualityOptions,
     run: &Run,
 ) -> Result<Overlap> {
-    let lattice = lattice(solid.body(), spheres, options.columns)
-        .ok_or_else(|| Error::Empty("the target has no vertex and no cell".into()))?;
-    let target = Columns::on(solid.body(), lattice, run.pool())?;
-    run.check(0.0, "measuring the overlap")?;
-    let union = Columns::of_spheres(spheres, lattice, run.pool())?;
-    run.count(|c| c.columns += (lattice.dims[0] * lattice.dims[1]) as u64);
+    let body = solid.body();
+    let (Some(lattice), Some((lo, hi))) = (lattice(body, spheres, options.columns), body_box(body))
+    else {
+        return Err(Error::Empty("the target has no vertex and no cell".into()));
+    };
+    let room = solid.memory_limit().saturating_sub(solid.bytes());
+    let target = Rows::of_body(body, lattice, room)?;
+    let union = Rows::of_spheres(spheres, lattice)?;
+    let bands = (run.pool().threads() * BAND) as u64 * lattice.dims[0] as u64 * COLUMN;
+    let bytes = target.bytes() + union.bytes() + bands;
+    if bytes > room {
+        return Err(Error::MemoryLimit(format!(
+            "{} × {} columns through {} spheres may take {bytes} bytes, more than the {room} \
+             that are left of the limit",
+            lattice.dims[0],
+            lattice.dims[1],
+            spheres.len()
+        )));
+    }
+    run.count(|c| {
+        c.columns += (lattice.dims[0] * lattice.dims[1]) as u64;
+        c.peak_bytes = c.peak_bytes.max(solid.bytes() + bytes);
+    });
     // On a lattice of whole cells the target is a set of prisms, each with its own cross-section.
-    let prisms = matches!(solid.body(), Body::Voxels(_)) && lattice.inverse[0][1] == 0.0;
-    compare(&target, &union, prisms, run.pool())
+    let prisms = matches!(body, Body::Voxels(_)) && lattice.inverse[0][1] == 0.0;
+    compare(&target, &union, 0.5 * (lo + hi)[lattice.axis], prisms, run)
 }
 
-/// Compares two bodies on one lattice. `prisms`: the target is constant over the area of a
-/// column, so its second moments gain step²/12; elsewhere the lattice's mean over all its
-/// places is exact without it.
+/// Compares two bodies on one lattice, band by band. `middle`: where along the columns the
+/// moments are taken about. `prisms`: the target is constant over the area of a column, so its
+/// second moments gain step²/12; elsewhere the lattice's mean over all its places is exact
+/// without it.
 pub(super) fn compare(
-    target: &Columns,
-    union: &Columns,
+    target: &Rows,
+    union: &Rows,
+    middle: f64,
     prisms: bool,
-    pool: &Pool,
+    run: &Run,
 ) -> Result<Overlap> {
-    let l = target.lattice();
-    let middle = l.place(l.dims[0] / 2, l.dims[1] / 2);
-    let [lo, hi] = [
-        target.intervals.iter().map(|i| i[0]).fold(f64::MAX, f64::min),
-        target.intervals.iter().map(|i| i[1]).fold(f64::MIN, f64::max),
-    ];
-    if lo > hi {
-        return Err(Error::ZeroVolume("no column meets the target: ask for more columns".into()));
-    }
-    let center = [middle[0], middle[1], 0.5 * (lo + hi)];
-    let bands = pool.map(l.dims[1].div_ceil(ROWS), |i| {
-        band(target, union, center, i * ROWS..((i + 1) * ROWS).min(l.dims[1]))
-    });
+    let l = &target.lattice;
+    let [x, y] = l.place(l.dims[0] / 2, l.dims[1] / 2);
+    let center = [x, y, middle];
     let mut sums = Sums::default();
-    for b in &bands {
-        sums.add(b);
+    let total = target.bands();
+    for first in (0..total).step_by(GROUP) {
+        run.check(0.0, "measuring the overlap")?;
+        let found = run.pool().map(GROUP.min(total - first), |i| {
+            let i = first + i;
+            Ok(band(&target.band(i)?, &union.band(i)?, l, center, i * BAND))
+        });
+        for b in found {
+            sums.add(&b?);
+        }
     }
     let area = l.area();
     let [s, c, i] =
         [sums.target, sums.union, sums.both].map(|x| (x[0] + x[1] + x[2] + x[3]) * area);
+    if s <= 0.0 {
+        return Err(Error::ZeroVolume("no column meets the target: ask for more columns".into()));
+    }
     let mismatch = dice(s, c, i);
     // D = (|S∖C| + |C∖S|) / (|S| + |C|): how far the four lattices of twice the step lie from
     // their mean, for each volume by itself so that errors do not cancel by chance.
@@ -181,12 +203,12 @@ fn dice(s: f64, c: f64, both: f64) -> f64 {
     (1.0 - 2.0 * both / (s + c)).clamp(0.0, 1.0)
 }
 
-fn band(target: &Columns, union: &Columns, center: [f64; 3], rows: std::ops::Range<usize>) -> Sums {
-    let l = target.lattice();
+/// The sums over one band, whose first row is `first`.
+fn band(target: &Band, union: &Band, l: &Lattice, center: [f64; 3], first: usize) -> Sums {
     let mut sums = Sums::default();
-    for b in rows {
-        for a in 0..l.dims[0] {
-            let (s, c) = (target.column(a, b), union.column(a, b));
+    let mut columns = target.columns().zip(union.columns());
+    for b in first..l.dims[1].min(first + BAND) {
+        for (a, (s, c)) in (0..l.dims[0]).zip(&mut columns) {
             if s.is_empty() && c.is_empty() {
                 continue;
             }

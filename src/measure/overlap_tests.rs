@@ -1,7 +1,9 @@
 //! Overlap against formulas, and the stated error against the true one.
 
 use super::*;
+use crate::run::Pool;
 use crate::shape::Mesh;
+use crate::solid::columns::Columns;
 use std::f64::consts::PI;
 
 fn cap_lens(r: f64, s: f64, d: f64) -> f64 {
@@ -45,19 +47,17 @@ fn against_spheres(target: &[Sphere], clump: &[Sphere], n: usize) -> Overlap {
         }
     }
     let l = Lattice::slanted(2, n, lo, hi);
-    let pool = Pool::serial();
-    let t = Columns::of_spheres(target, l, &pool).unwrap();
-    let c = Columns::of_spheres(clump, l, &pool).unwrap();
-    compare(&t, &c, false, &pool).unwrap()
+    let t = Rows::of_spheres(target, l).unwrap();
+    let c = Rows::of_spheres(clump, l).unwrap();
+    compare(&t, &c, 0.5, false, &Run::serial()).unwrap()
 }
 
 fn against_box(m: Mesh, clump: &[Sphere], n: usize) -> Overlap {
     let body = Body::Mesh(m);
     let l = lattice(&body, clump, n).unwrap();
-    let pool = Pool::serial();
-    let t = Columns::on(&body, l, &pool).unwrap();
-    let c = Columns::of_spheres(clump, l, &pool).unwrap();
-    compare(&t, &c, false, &pool).unwrap()
+    let t = Rows::of_body(&body, l, u64::MAX).unwrap();
+    let c = Rows::of_spheres(clump, l).unwrap();
+    compare(&t, &c, 0.5, false, &Run::serial()).unwrap()
 }
 
 /// A mesh of an ellipsoid and its exact polyhedral volume.
@@ -216,10 +216,9 @@ fn voxels_have_their_exact_volume() {
     // A sphere that reaches beyond the array.
     let s = Sphere::new(Vec3::new(0.8, 0.4, 0.2), 0.15);
     let l = lattice(&body, &[s], 64).unwrap();
-    let pool = Pool::serial();
-    let t = Columns::on(&body, l, &pool).unwrap();
-    let c = Columns::of_spheres(&[s], l, &pool).unwrap();
-    let o = compare(&t, &c, true, &pool).unwrap();
+    let t = Rows::of_body(&body, l, u64::MAX).unwrap();
+    let c = Rows::of_spheres(&[s], l).unwrap();
+    let o = compare(&t, &c, 0.2, true, &Run::serial()).unwrap();
     assert!((o.target - 10.0 * spacing.product()).abs() < 1e-14);
     assert!((o.union / s.volume() - 1.0).abs() < 1e-3);
 }
@@ -235,11 +234,47 @@ fn threads_change_nothing() {
         .collect();
     let l = Lattice::slanted(2, 50, [-0.2, -0.2], [1.2, 1.2]);
     let of = |threads| {
-        let pool = Pool::new(threads).unwrap();
-        let t = Columns::of_spheres(&spheres[..20], l, &pool).unwrap();
-        let c = Columns::of_spheres(&spheres[10..], l, &pool).unwrap();
-        let o = compare(&t, &c, false, &pool).unwrap();
+        let t = Rows::of_spheres(&spheres[..20], l).unwrap();
+        let c = Rows::of_spheres(&spheres[10..], l).unwrap();
+        let o = compare(&t, &c, 0.5, false, &Run::new(threads).unwrap()).unwrap();
         [o.mismatch, o.error_bound, o.both, o.centroid_error, o.moment_errors[1]].map(f64::to_bits)
     };
     assert_eq!(of(1), of(3));
+}
+
+/// Band by band against all columns at once, and deep piles of spheres against a plain merge.
+#[test]
+fn bands_give_what_all_columns_give() {
+    let spheres: Vec<Sphere> = (0..3000)
+        .map(|i| {
+            let t = f64::from(i);
+            let c = Vec3::new((t * 0.37).fract(), (t * 0.61).fract(), (t * 0.83).fract());
+            Sphere::new(c * 0.3, 0.3 + 0.3 * (t * 0.29).fract())
+        })
+        .collect();
+    let l = Lattice::slanted(2, 150, [-0.6, -0.6], [1.0, 1.0]);
+    let rows = Rows::of_spheres(&spheres, l).unwrap();
+    let pool = Pool::serial();
+    let all = Columns::of(&rows, &pool).unwrap();
+    let o = compare(&rows, &rows, 0.2, false, &Run::serial()).unwrap();
+    assert!((o.union / all.volume() - 1.0).abs() < 1e-12 && o.both == o.union);
+    for (a, b) in [(0, 0), (60, 70), (100, 100), (130, 90), (75, 140)] {
+        let [x, y] = l.place(a, b);
+        let mut chords: Vec<[f64; 2]> = Vec::new();
+        for s in &spheres {
+            let h2 = s.radius.powi(2) - (x - s.center.x).powi(2) - (y - s.center.y).powi(2);
+            if h2 > 0.0 {
+                chords.push([s.center.z - h2.sqrt(), s.center.z + h2.sqrt()]);
+            }
+        }
+        chords.sort_by(|p, q| p[0].total_cmp(&q[0]));
+        let mut length = 0.0;
+        let mut end = f64::MIN;
+        for [from, to] in chords {
+            length += (to - from.max(end)).max(0.0);
+            end = end.max(to);
+        }
+        let found: f64 = all.column(a, b).iter().map(|i| i[1] - i[0]).sum();
+        assert!((found - length).abs() < 1e-12, "{a} {b}: {found} {length}");
+    }
 }

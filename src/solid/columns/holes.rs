@@ -111,6 +111,11 @@ impl Cones {
         Ok(Cones { closed, winding, parts })
     }
 
+    pub(super) fn bytes(&self) -> u64 {
+        let mesh = 24 * self.closed.vertices.len() + 12 * self.closed.faces.len();
+        mesh as u64 + self.winding.bytes()
+    }
+
     /// Winding number of the cones about `p`.
     pub(super) fn at(&self, p: &Vec3) -> f64 {
         self.winding.at(p)

@@ -11,9 +11,12 @@ mod spheres;
 pub(super) use holes::closed;
 
 use crate::error::{Error, Result, filled, reserve};
-use crate::math::Vec3;
+use crate::math::{Sphere, Vec3};
 use crate::run::Pool;
-use crate::shape::Body;
+use crate::shape::{Body, Mesh, Voxels};
+use open::Open;
+use raster::Binned;
+use spheres::Chords;
 
 /// Parallel columns through a body and the intervals of them that lie inside.
 /// The columns run along `axis`; column (a, b) passes through
@@ -141,15 +144,27 @@ impl Lattice {
 
 /// Rows of columns that are worked on together: fixed, so that results do not
 /// depend on the number of threads.
-const BAND: usize = 8;
+pub(crate) const BAND: usize = 8;
 
 /// The intervals of a band of rows, column after column.
 #[derive(Debug, Default)]
-struct Band {
+pub(crate) struct Band {
     counts: Vec<u32>,
     intervals: Vec<[f64; 2]>,
     /// Miscounted length.
     miscounted: f64,
+}
+
+impl Band {
+    /// The intervals of each column.
+    pub(crate) fn columns(&self) -> impl Iterator<Item = &[[f64; 2]]> {
+        let mut rest = self.intervals.as_slice();
+        self.counts.iter().map(move |&n| {
+            let (column, more) = rest.split_at_checked(n as usize).unwrap_or_default();
+            rest = more;
+            column
+        })
+    }
 }
 
 impl Columns {
@@ -172,23 +187,16 @@ impl Columns {
 
     /// The columns of `body` on any lattice.
     pub(crate) fn on(body: &Body, lattice: Lattice, pool: &Pool) -> Result<Columns> {
-        let total = check(&lattice)?;
-        let bands = match body {
-            Body::Voxels(voxels) => cells::bands(voxels, &lattice, pool)?,
-            Body::Mesh(mesh) if mesh.clean => raster::bands(mesh, &lattice, pool)?,
-            Body::Mesh(mesh) => {
-                let border = holes::border(mesh)?;
-                if border.is_empty() {
-                    raster::bands(mesh, &lattice, pool)?
-                } else {
-                    open::bands(mesh, &border, &lattice, pool)?
-                }
-            }
-        };
-        Columns::gather(bands, lattice, total)
+        Columns::of(&Rows::of_body(body, lattice, u64::MAX)?, pool)
     }
 
-    fn gather(bands: Vec<Band>, lattice: Lattice, total: usize) -> Result<Columns> {
+    /// All columns of `rows`.
+    pub(crate) fn of(rows: &Rows, pool: &Pool) -> Result<Columns> {
+        let lattice = rows.lattice;
+        let total = lattice.dims[0] * lattice.dims[1];
+        let bands: Result<Vec<Band>> =
+            pool.map(rows.bands(), |i| rows.band(i)).into_iter().collect();
+        let bands = bands?;
         let mut starts = reserve("columns", total + 1)?;
         let mut intervals =
             reserve("intervals of columns", bands.iter().map(|b| b.intervals.len()).sum())?;
@@ -229,6 +237,75 @@ impl Columns {
     }
 }
 
+/// A body, or spheres, made ready for the columns of a lattice, of which bands of rows are cut
+/// one by one: what is done with columns need not hold them all.
+pub(crate) struct Rows<'a> {
+    pub lattice: Lattice,
+    source: Source<'a>,
+}
+
+enum Source<'a> {
+    Cells(&'a Voxels),
+    Closed(&'a Mesh, Binned),
+    Open(Box<Open<'a>>),
+    Spheres(Chords),
+}
+
+impl<'a> Rows<'a> {
+    /// Of a body, in no more than `limit` bytes.
+    pub(crate) fn of_body(body: &'a Body, lattice: Lattice, limit: u64) -> Result<Rows<'a>> {
+        check(&lattice)?;
+        let source = match body {
+            Body::Voxels(voxels) => {
+                cells::check(voxels)?;
+                Source::Cells(voxels)
+            }
+            Body::Mesh(mesh) => {
+                let border = if mesh.clean { Vec::new() } else { holes::border(mesh)? };
+                if border.is_empty() {
+                    Source::Closed(mesh, Binned::new(mesh, &lattice, limit)?)
+                } else {
+                    Source::Open(Box::new(Open::new(mesh, &border, &lattice, limit)?))
+                }
+            }
+        };
+        Ok(Rows { lattice, source })
+    }
+
+    /// Of the union of `spheres`.
+    pub(crate) fn of_spheres(spheres: &[Sphere], lattice: Lattice) -> Result<Rows<'static>> {
+        check(&lattice)?;
+        Ok(Rows { lattice, source: Source::Spheres(Chords::new(spheres, &lattice)?) })
+    }
+
+    /// Number of bands.
+    pub(crate) fn bands(&self) -> usize {
+        self.lattice.dims[1].div_ceil(BAND)
+    }
+
+    /// The columns of band `i`, row after row.
+    pub(crate) fn band(&self, i: usize) -> Result<Band> {
+        let first = i * BAND;
+        let rows = BAND.min(self.lattice.dims[1].saturating_sub(first));
+        match &self.source {
+            Source::Cells(voxels) => cells::band(voxels, &self.lattice, first, rows),
+            Source::Closed(mesh, binned) => raster::band(mesh, binned, first, rows),
+            Source::Open(open) => open.band(first, rows),
+            Source::Spheres(chords) => chords.band(first, rows),
+        }
+    }
+
+    /// Bytes that it holds, but for the bands.
+    pub(crate) fn bytes(&self) -> u64 {
+        match &self.source {
+            Source::Cells(_) => 0,
+            Source::Closed(_, binned) => binned.bytes(),
+            Source::Open(open) => open.bytes(),
+            Source::Spheres(chords) => chords.bytes(),
+        }
+    }
+}
+
 /// The number of columns.
 fn check(l: &Lattice) -> Result<usize> {
     if l.axis > 2 {
@@ -245,16 +322,6 @@ fn check(l: &Lattice) -> Result<usize> {
     l.dims[0].checked_mul(l.dims[1]).filter(|&n| n < u32::MAX as usize).ok_or_else(|| {
         Error::TooLarge(format!("{} × {} columns are too many", l.dims[0], l.dims[1]))
     })
-}
-
-/// `f(first row, rows)` for each band of rows, in order.
-fn map_bands(
-    lattice: &Lattice,
-    pool: &Pool,
-    f: impl Fn(usize, usize) -> Result<Band> + Sync + Send,
-) -> Result<Vec<Band>> {
-    let rows = lattice.dims[1];
-    pool.map(rows.div_ceil(BAND), |i| f(i * BAND, BAND.min(rows - i * BAND))).into_iter().collect()
 }
 
 /// Pushes without aborting when memory is short.

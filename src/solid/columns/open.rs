@@ -3,12 +3,12 @@
 
 use super::holes::Cones;
 use super::raster::{Binned, Crossing};
-use super::{Band, Lattice, empty_band, map_bands, push};
+use super::{Band, Lattice, empty_band, push};
 use crate::error::Result;
 use crate::math::Vec3;
-use crate::run::Pool;
 use crate::shape::Mesh;
 use crate::solid::winding::Winding;
+use std::ops::Range;
 
 /// Places looked at along a column of the box's full height, beside the ends of each piece; over
 /// a hole the level ½ may lie between crossings, and an interval shorter than this share of the
@@ -35,6 +35,21 @@ impl Rule {
         }
     }
 
+    /// The mesh whose crossings are counted.
+    fn crossed<'m>(&'m self, mesh: &'m Mesh) -> &'m Mesh {
+        match self {
+            Rule::Closed(cones) => &cones.closed,
+            Rule::Tree(_) => mesh,
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        match self {
+            Rule::Closed(cones) => cones.bytes(),
+            Rule::Tree(tree) => tree.bytes(),
+        }
+    }
+
     fn inside(&self, p: &Vec3, count: i32) -> bool {
         match self {
             Rule::Closed(cones) => f64::from(count) - cones.at(p) > 0.5,
@@ -43,42 +58,60 @@ impl Rule {
     }
 }
 
-pub(super) fn bands(
-    mesh: &Mesh,
-    border: &[[u32; 2]],
-    lattice: &Lattice,
-    pool: &Pool,
-) -> Result<Vec<Band>> {
-    let Some(first) = mesh.vertices.first() else {
-        return map_bands(lattice, pool, |_, rows| empty_band(rows * lattice.dims[0]));
-    };
-    let (mut lo, mut hi) = (lattice.turn(first), lattice.turn(first));
-    for v in &mesh.vertices {
-        let v = lattice.turn(v);
-        for k in 0..3 {
-            lo[k] = lo[k].min(v[k]);
-            hi[k] = hi[k].max(v[k]);
+/// A mesh made ready for the columns of a lattice.
+pub(super) struct Open<'a> {
+    mesh: &'a Mesh,
+    lattice: Lattice,
+    rule: Rule,
+    binned: Binned,
+    /// The mesh's box on the lattice, and the columns that it lies across.
+    lo: [f64; 3],
+    hi: [f64; 3],
+    across: Range<usize>,
+}
+
+impl<'a> Open<'a> {
+    /// `mesh` with its `border`, in no more than `limit` bytes.
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        border: &[[u32; 2]],
+        lattice: &Lattice,
+        limit: u64,
+    ) -> Result<Open<'a>> {
+        let (mut lo, mut hi) = ([0.0; 3], [0.0; 3]);
+        for (i, v) in mesh.vertices.iter().enumerate() {
+            let v = lattice.turn(v);
+            for k in 0..3 {
+                lo[k] = if i == 0 { v[k] } else { v[k].min(lo[k]) };
+                hi[k] = if i == 0 { v[k] } else { v[k].max(hi[k]) };
+            }
         }
+        let across = lattice.below(0, lo[0])..lattice.below(0, hi[0]);
+        let rule = if border.len() < mesh.faces.len() {
+            Rule::Closed(Cones::new(mesh, border)?)
+        } else {
+            Rule::Tree(Winding::new(mesh)?)
+        };
+        let room = limit.saturating_sub(rule.bytes());
+        let binned = Binned::new(rule.crossed(mesh), lattice, room)?;
+        Ok(Open { mesh, lattice: *lattice, rule, binned, lo, hi, across })
     }
-    let across = lattice.below(0, lo[0])..lattice.below(0, hi[0]);
-    let rule = if border.len() < mesh.faces.len() {
-        Rule::Closed(Cones::new(mesh, border)?)
-    } else {
-        Rule::Tree(Winding::new(mesh)?)
-    };
-    let binned = match &rule {
-        Rule::Closed(cones) => Binned::new(&cones.closed, lattice)?,
-        Rule::Tree(_) => Binned::new(mesh, lattice)?,
-    };
-    map_bands(lattice, pool, |first, rows| {
+
+    pub(super) fn bytes(&self) -> u64 {
+        self.rule.bytes() + self.binned.bytes()
+    }
+
+    /// The intervals of the rows `first..first + rows`.
+    pub(super) fn band(&self, first: usize, rows: usize) -> Result<Band> {
+        let (lattice, lo, hi) = (&self.lattice, &self.lo, &self.hi);
         let mut band = empty_band(rows * lattice.dims[0])?;
-        let crossings = binned.crossings(first, rows)?;
+        let crossings = self.binned.crossings(self.rule.crossed(self.mesh), first, rows)?;
         let mut rest = crossings.as_slice();
         for b in first..first + rows {
             if !(lo[1]..=hi[1]).contains(&lattice.at(1, b)) {
                 continue;
             }
-            for a in across.clone() {
+            for a in self.across.clone() {
                 let column = (b - first) * lattice.dims[0] + a;
                 let skip = rest.iter().take_while(|c| (c.column as usize) < column).count();
                 rest = rest.get(skip..).unwrap_or_default();
@@ -86,14 +119,15 @@ pub(super) fn bands(
                 let crossings = rest.get(..here).unwrap_or_default();
                 let begin = band.intervals.len();
                 let foot = lattice.point(a, b, 0.0);
-                cut(&rule, lattice.axis, &foot, crossings, [lo[2], hi[2]], &mut band.intervals)?;
+                let ends = [lo[2], hi[2]];
+                cut(&self.rule, lattice.axis, &foot, crossings, ends, &mut band.intervals)?;
                 if let Some(count) = band.counts.get_mut(column) {
                     *count = (band.intervals.len() - begin) as u32;
                 }
             }
         }
         Ok(band)
-    })
+    }
 }
 
 /// The intervals of the column through `foot`.
@@ -180,7 +214,10 @@ fn extend(out: &mut Vec<[f64; 2]>, begin: usize, piece: [f64; 2]) -> Result<()> 
 #[cfg(test)]
 mod tests {
     use super::super::holes::border;
+    use super::super::{Columns, Rows};
     use super::*;
+    use crate::run::Pool;
+    use crate::shape::Body;
 
     /// A sphere of triangles without the faces that `drop` names.
     fn sphere(drop: impl Fn(&Vec3) -> bool) -> Mesh {
@@ -233,11 +270,12 @@ mod tests {
             let cones = Cones::new(&mesh, &border).unwrap();
             assert!(super::super::closed(&cones.closed).unwrap());
             let exact = Winding::new(&mesh).unwrap();
+            let body = Body::Mesh(mesh);
             for axis in 0..3 {
                 let n = 14;
                 let lattice = Lattice::straight(axis, [n, n], [0.0; 2], [1.0 / n as f64; 2]);
-                let bands = bands(&mesh, &border, &lattice, &Pool::serial()).unwrap();
-                let columns = super::super::Columns::gather(bands, lattice, n * n).unwrap();
+                let rows = Rows::of_body(&body, lattice, u64::MAX).unwrap();
+                let columns = Columns::of(&rows, &Pool::serial()).unwrap();
                 for b in 0..n {
                     for a in 0..n {
                         for k in 0..29 {

@@ -7,10 +7,10 @@
 //! column is entered as often as it is left, whatever the rounding, also
 //! through edges and vertices. Ties are those of a column shifted by (ε, ε²).
 
-use super::{BAND, Band, Lattice, empty_band, map_bands, push};
+use super::{BAND, Band, Lattice, empty_band, push};
 use crate::error::{Error, Result, filled, reserve};
-use crate::run::Pool;
 use crate::shape::Mesh;
+use std::mem::size_of;
 
 /// Where a column crosses a face.
 #[derive(Debug, Clone, Copy)]
@@ -23,16 +23,17 @@ pub(super) struct Crossing {
     pub at: f64,
 }
 
-/// Crossings of one band: 2^26 of them take a GiB.
-const MOST_CROSSINGS: usize = 1 << 26;
+/// Most crossings of one band: with their sorted copy they take two GiB.
+const MOST_CROSSINGS: u64 = 1 << 26;
 
 /// The faces that may cross each band of rows.
-pub(super) struct Binned<'a> {
-    mesh: &'a Mesh,
+pub(super) struct Binned {
     lattice: Lattice,
     vertices: Vec<Turned>,
     starts: Vec<usize>,
     faces: Vec<u32>,
+    /// Most crossings of one band.
+    most: u64,
 }
 
 /// A vertex on the lattice.
@@ -43,8 +44,9 @@ struct Turned {
     below: [u32; 2],
 }
 
-impl<'a> Binned<'a> {
-    pub(super) fn new(mesh: &'a Mesh, lattice: &Lattice) -> Result<Self> {
+impl Binned {
+    /// The faces of `mesh`, in no more than `limit` bytes.
+    pub(super) fn new(mesh: &Mesh, lattice: &Lattice, limit: u64) -> Result<Self> {
         let mut vertices = reserve("vertices on the lattice", mesh.vertices.len())?;
         vertices.extend(mesh.vertices.iter().map(|v| {
             let at = lattice.turn(v);
@@ -71,7 +73,16 @@ impl<'a> Binned<'a> {
         for b in 0..bands {
             starts[b + 1] += starts[b];
         }
-        let mut next = starts.clone();
+        let bytes = bytes(mesh.vertices.len(), bands, starts[bands]);
+        if bytes > limit {
+            return Err(Error::MemoryLimit(format!(
+                "{} faces in {bands} bands of columns may take {bytes} bytes, more than the \
+                 {limit} that are left of the limit",
+                mesh.faces.len()
+            )));
+        }
+        let mut next = filled("bands", bands + 1, 0usize)?;
+        next.copy_from_slice(&starts);
         let mut faces = filled("faces in bands", starts[bands], 0u32)?;
         for f in 0..mesh.faces.len() {
             for b in range(f) {
@@ -79,26 +90,43 @@ impl<'a> Binned<'a> {
                 next[b] += 1;
             }
         }
-        Ok(Binned { mesh, lattice: *lattice, vertices, starts, faces })
+        let most = (limit / (2 * size_of::<Crossing>() as u64)).min(MOST_CROSSINGS);
+        Ok(Binned { lattice: *lattice, vertices, starts, faces, most })
     }
 
-    /// The crossings of the rows `first..first + rows` (one band), sorted by column and then
-    /// along it.
-    pub(super) fn crossings(&self, first: usize, rows: usize) -> Result<Vec<Crossing>> {
+    pub(super) fn bytes(&self) -> u64 {
+        bytes(self.vertices.len(), self.starts.len(), self.faces.len())
+    }
+
+    /// The crossings of `mesh` with the rows `first..first + rows` (one band), sorted by column
+    /// and then along it.
+    pub(super) fn crossings(
+        &self,
+        mesh: &Mesh,
+        first: usize,
+        rows: usize,
+    ) -> Result<Vec<Crossing>> {
         let band = first / BAND;
         let mut found = Vec::new();
         for &f in &self.faces[self.starts[band]..self.starts[band + 1]] {
-            self.face(f as usize, first, rows, &mut found)?;
+            self.face(mesh, f as usize, first, rows, &mut found)?;
         }
         sort(found, rows * self.lattice.dims[0])
     }
 
-    fn face(&self, f: usize, first: usize, rows: usize, out: &mut Vec<Crossing>) -> Result<()> {
+    fn face(
+        &self,
+        mesh: &Mesh,
+        f: usize,
+        first: usize,
+        rows: usize,
+        out: &mut Vec<Crossing>,
+    ) -> Result<()> {
         let l = &self.lattice;
-        let [p, q, r] = self.mesh.faces[f];
+        let [p, q, r] = mesh.faces[f];
         let p = [p, q, r].map(|v| self.vertices[v as usize].at);
         // Cut places are clamped to the edges, so no column outside these is reached.
-        let [_, range] = extent(self.mesh, &self.vertices, f);
+        let [_, range] = extent(mesh, &self.vertices, f);
         let begin = (range.start as usize).max(first);
         let end = (range.end as usize).min(first + rows);
         for b in begin..end {
@@ -115,9 +143,12 @@ impl<'a> Binned<'a> {
             let (up, down) = (l.below(0, rising[0]), l.below(0, falling[0]));
             // Counter-clockwise on the lattice: the normal points along the column, a way out.
             let (run, turn) = if down < up { (down..up, -1) } else { (up..down, 1) };
-            if out.len() + run.len() > MOST_CROSSINGS {
+            let count = (out.len() + run.len()) as u64;
+            if count > self.most {
                 return Err(Error::MemoryLimit(format!(
-                    "columns cross the faces more than {MOST_CROSSINGS} times in {rows} rows"
+                    "columns cross the faces {count} times in {rows} rows, more than the {} that \
+                     the limit allows",
+                    self.most
                 )));
             }
             let width = falling[0] - rising[0];
@@ -135,6 +166,11 @@ impl<'a> Binned<'a> {
         }
         Ok(())
     }
+}
+
+/// Bytes of so many vertices, bands and faces in bands.
+fn bytes(vertices: usize, bands: usize, faces: usize) -> u64 {
+    vertices as u64 * size_of::<Turned>() as u64 + 16 * bands as u64 + 4 * faces as u64
 }
 
 /// Columns and rows that the face `f` may cross.
@@ -181,33 +217,30 @@ fn sort(found: Vec<Crossing>, columns: usize) -> Result<Vec<Crossing>> {
     Ok(sorted)
 }
 
-/// The intervals of a mesh whose directed edges cancel.
-pub(super) fn bands(mesh: &Mesh, lattice: &Lattice, pool: &Pool) -> Result<Vec<Band>> {
-    let binned = Binned::new(mesh, lattice)?;
-    map_bands(lattice, pool, |first, rows| {
-        let mut band = empty_band(rows * lattice.dims[0])?;
-        let crossings = binned.crossings(first, rows)?;
-        for column in crossings.chunk_by(|x, y| x.column == y.column) {
-            let Some(head) = column.first() else { continue };
-            let begin = band.intervals.len();
-            let (mut winding, mut last) = (0i32, head.at);
-            for c in column {
-                let length = c.at - last;
-                if winding > 0 && length > 0.0 {
-                    match band.intervals.get_mut(begin..).and_then(|v| v.last_mut()) {
-                        Some(previous) if previous[1] == last => previous[1] = c.at,
-                        _ => push(&mut band.intervals, [last, c.at])?,
-                    }
+/// The intervals of a mesh whose directed edges cancel, in the rows `first..first + rows`.
+pub(super) fn band(mesh: &Mesh, binned: &Binned, first: usize, rows: usize) -> Result<Band> {
+    let mut band = empty_band(rows * binned.lattice.dims[0])?;
+    let crossings = binned.crossings(mesh, first, rows)?;
+    for column in crossings.chunk_by(|x, y| x.column == y.column) {
+        let Some(head) = column.first() else { continue };
+        let begin = band.intervals.len();
+        let (mut winding, mut last) = (0i32, head.at);
+        for c in column {
+            let length = c.at - last;
+            if winding > 0 && length > 0.0 {
+                match band.intervals.get_mut(begin..).and_then(|v| v.last_mut()) {
+                    Some(previous) if previous[1] == last => previous[1] = c.at,
+                    _ => push(&mut band.intervals, [last, c.at])?,
                 }
-                let counted = winding - i32::from(winding > 0);
-                band.miscounted += length * f64::from(counted.abs());
-                winding += c.turn;
-                last = c.at;
             }
-            if let Some(count) = band.counts.get_mut(head.column as usize) {
-                *count = (band.intervals.len() - begin) as u32;
-            }
+            let counted = winding - i32::from(winding > 0);
+            band.miscounted += length * f64::from(counted.abs());
+            winding += c.turn;
+            last = c.at;
         }
-        Ok(band)
-    })
+        if let Some(count) = band.counts.get_mut(head.column as usize) {
+            *count = (band.intervals.len() - begin) as u32;
+        }
+    }
+    Ok(band)
 }

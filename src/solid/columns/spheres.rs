@@ -1,9 +1,13 @@
 //! Columns through the union of spheres: exact chords, merged.
 
-use super::{BAND, Band, Columns, Lattice, check, empty_band, map_bands, push};
-use crate::error::{Result, filled};
+use super::{BAND, Band, Lattice, empty_band, push};
+use crate::error::{Result, filled, reserve};
 use crate::math::Sphere;
-use crate::run::Pool;
+use std::mem::size_of;
+use std::ops::Range;
+
+/// About so many chords are sorted at once.
+const AT_ONCE: usize = 1 << 18;
 
 /// A sphere seen along the columns: an ellipse of the lattice.
 struct Seen {
@@ -20,117 +24,158 @@ struct Form {
     c: f64,
 }
 
-impl Columns {
-    /// The intervals of the columns of `lattice` in the union of `spheres`.
-    pub(crate) fn of_spheres(spheres: &[Sphere], lattice: Lattice, pool: &Pool) -> Result<Columns> {
-        let total = check(&lattice)?;
+/// The spheres made ready for the columns of a lattice.
+pub(super) struct Chords {
+    lattice: Lattice,
+    seen: Vec<Seen>,
+    form: Form,
+    /// Which spheres reach into each band of rows.
+    bins: Vec<Vec<u32>>,
+}
+
+impl Chords {
+    pub(super) fn new(spheres: &[Sphere], lattice: &Lattice) -> Result<Chords> {
         let [i0, i1] = [0, 1].map(|k| [lattice.inverse[0][k], lattice.inverse[1][k]]);
         let form = Form {
             a: i0[0] * i0[0] + i0[1] * i0[1],
             b: i0[0] * i1[0] + i0[1] * i1[1],
             c: i1[0] * i1[0] + i1[1] * i1[1],
         };
+        // Rows that a length across the columns reaches over.
         let row = lattice.map[1];
         let reach = (row[0] * row[0] + row[1] * row[1]).sqrt();
-        let mut seen = crate::error::reserve("spheres", spheres.len())?;
+        let mut seen = reserve("spheres", spheres.len())?;
         seen.extend(
             spheres.iter().map(|s| Seen { center: lattice.turn(&s.center), radius: s.radius }),
         );
-        // Which spheres reach into each band of rows.
-        let rows = |s: &Seen| {
+        let bins = filled("bands", lattice.dims[1].div_ceil(BAND), Vec::new())?;
+        let mut chords = Chords { lattice: *lattice, seen, form, bins };
+        for (i, s) in chords.seen.iter().enumerate() {
             let y = s.center[1];
-            lattice.below(1, y - reach * s.radius)..lattice.below(1, y + reach * s.radius)
-        };
-        let mut bins: Vec<Vec<u32>> = filled("bands", lattice.dims[1].div_ceil(BAND), Vec::new())?;
-        for (i, s) in seen.iter().enumerate() {
-            let rows = rows(s);
+            let rows =
+                lattice.below(1, y - reach * s.radius)..lattice.below(1, y + reach * s.radius);
             if !rows.is_empty() {
-                for bin in &mut bins[rows.start / BAND..(rows.end - 1) / BAND + 1] {
+                for bin in &mut chords.bins[rows.start / BAND..(rows.end - 1) / BAND + 1] {
                     push(bin, i as u32)?;
                 }
             }
         }
-        let bands = map_bands(&lattice, pool, |first, count| {
-            let mut chords = Vec::new();
-            for &i in &bins[first / BAND] {
-                let s = &seen[i as usize];
-                let rows = rows(s);
-                for b in rows.start.max(first)..rows.end.min(first + count) {
-                    chords_of_row(
-                        s,
-                        &form,
-                        &lattice,
-                        b,
-                        (b - first) * lattice.dims[0],
-                        &mut chords,
-                    )?;
+        Ok(chords)
+    }
+
+    pub(super) fn bytes(&self) -> u64 {
+        let bins = self.bins.iter().map(|b| b.capacity() * 4 + size_of::<Vec<u32>>());
+        (self.seen.len() * size_of::<Seen>() + bins.sum::<usize>()) as u64
+    }
+
+    /// The intervals of the rows `first..first + rows` (one band). Chords are made for some
+    /// columns at a time, so that deep piles of spheres do not fill the memory.
+    pub(super) fn band(&self, first: usize, rows: usize) -> Result<Band> {
+        let columns = self.lattice.dims[0];
+        let mut band = empty_band(rows * columns)?;
+        let mut spans: Vec<(Range<usize>, &Seen)> = Vec::new();
+        let (mut chords, mut work) = (Vec::new(), Work::default());
+        for (b, counts) in (first..first + rows).zip(band.counts.chunks_mut(columns.max(1))) {
+            spans.clear();
+            for &i in &self.bins[first / BAND] {
+                let s = &self.seen[i as usize];
+                let span = self.span(s, b);
+                if !span.is_empty() {
+                    push(&mut spans, (span, s))?;
                 }
             }
-            merge(chords, count * lattice.dims[0])
-        })?;
-        Columns::gather(bands, lattice, total)
-    }
-}
-
-/// A chord: column within the band, and its ends.
-type Chord = (u32, [f64; 2]);
-
-fn chords_of_row(
-    s: &Seen,
-    form: &Form,
-    lattice: &Lattice,
-    b: usize,
-    base: usize,
-    out: &mut Vec<Chord>,
-) -> Result<()> {
-    let y = lattice.at(1, b) - s.center[1];
-    let r2 = s.radius * s.radius;
-    let middle = -form.b * y / form.a;
-    let half2 = middle * middle - (form.c * y * y - r2) / form.a;
-    if half2 <= 0.0 {
-        return Ok(());
-    }
-    let (middle, half) = (s.center[0] + middle, half2.sqrt());
-    for a in lattice.below(0, middle - half)..lattice.below(0, middle + half) {
-        let x = lattice.at(0, a) - s.center[0];
-        let h2 = r2 - (form.a * x * x + 2.0 * form.b * x * y + form.c * y * y);
-        if h2 > 0.0 {
-            let h = h2.sqrt();
-            push(out, ((base + a) as u32, [s.center[2] - h, s.center[2] + h]))?;
+            let tile = (AT_ONCE / spans.len().max(1)).max(1);
+            for (t, counts) in counts.chunks_mut(tile).enumerate() {
+                chords.clear();
+                let begin = t * tile;
+                for (span, s) in &spans {
+                    let from = span.start.max(begin);
+                    for a in from..span.end.min(begin + counts.len()) {
+                        if let Some(chord) = self.chord(s, a, b) {
+                            push(&mut chords, ((a - begin) as u32, chord))?;
+                        }
+                    }
+                }
+                merge(&chords, counts, &mut work, &mut band.intervals)?;
+            }
         }
+        Ok(band)
     }
-    Ok(())
+
+    /// The columns of row `b` that may meet a sphere.
+    fn span(&self, s: &Seen, b: usize) -> Range<usize> {
+        let y = self.lattice.at(1, b) - s.center[1];
+        let middle = -self.form.b * y / self.form.a;
+        let half2 = middle * middle - (self.form.c * y * y - s.radius * s.radius) / self.form.a;
+        if half2 <= 0.0 {
+            return 0..0;
+        }
+        let (middle, half) = (s.center[0] + middle, half2.sqrt());
+        self.lattice.below(0, middle - half)..self.lattice.below(0, middle + half)
+    }
+
+    fn chord(&self, s: &Seen, a: usize, b: usize) -> Option<[f64; 2]> {
+        let x = self.lattice.at(0, a) - s.center[0];
+        let y = self.lattice.at(1, b) - s.center[1];
+        let f = &self.form;
+        let h2 = s.radius * s.radius - (f.a * x * x + 2.0 * f.b * x * y + f.c * y * y);
+        let h = if h2 > 0.0 { h2.sqrt() } else { return None };
+        Some([s.center[2] - h, s.center[2] + h])
+    }
 }
 
-/// The chords of each column sorted and joined where they touch.
-fn merge(chords: Vec<Chord>, columns: usize) -> Result<Band> {
-    let mut band = empty_band(columns)?;
-    let mut starts = filled("columns", columns + 1, 0usize)?;
-    for c in &chords {
+/// Buffers of [`merge`].
+#[derive(Default)]
+struct Work {
+    starts: Vec<usize>,
+    sorted: Vec<[f64; 2]>,
+}
+
+/// Appends the chords (column, ends) of each column, sorted and joined where they touch, and
+/// counts them.
+fn merge(
+    chords: &[(u32, [f64; 2])],
+    counts: &mut [u32],
+    work: &mut Work,
+    out: &mut Vec<[f64; 2]>,
+) -> Result<()> {
+    let Work { starts, sorted } = work;
+    clear(starts, counts.len() + 1, 0)?;
+    for c in chords {
         starts[c.0 as usize + 1] += 1;
     }
-    for c in 0..columns {
+    for c in 0..counts.len() {
         starts[c + 1] += starts[c];
     }
-    let mut sorted = filled("chords", chords.len(), [0.0; 2])?;
+    clear(sorted, chords.len(), [0.0; 2])?;
     for c in chords {
         let place = &mut starts[c.0 as usize];
         sorted[*place] = c.1;
         *place += 1;
     }
     let mut begin = 0;
-    for (&end, count) in starts.iter().zip(&mut band.counts) {
+    for (&end, count) in starts.iter().zip(counts) {
         let column = &mut sorted[begin..end];
         column.sort_unstable_by(|x, y| x[0].total_cmp(&y[0]).then(x[1].total_cmp(&y[1])));
-        let first = band.intervals.len();
+        let first = out.len();
         for &c in column.iter() {
-            match band.intervals.get_mut(first..).and_then(|v| v.last_mut()) {
+            match out.get_mut(first..).and_then(|v| v.last_mut()) {
                 Some(last) if c[0] <= last[1] => last[1] = last[1].max(c[1]),
-                _ => push(&mut band.intervals, c)?,
+                _ => push(out, c)?,
             }
         }
-        *count = (band.intervals.len() - first) as u32;
+        *count = (out.len() - first) as u32;
         begin = end;
     }
-    Ok(band)
+    Ok(())
+}
+
+/// Makes `v` so long, all `value`.
+fn clear<T: Copy>(v: &mut Vec<T>, len: usize, value: T) -> Result<()> {
+    v.clear();
+    if v.capacity() < len {
+        *v = reserve("chords of columns", len)?;
+    }
+    v.resize(len, value);
+    Ok(())
 }
