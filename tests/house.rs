@@ -15,6 +15,11 @@ fn read(path: &str) -> String {
 
 /// Every Rust file of the library and the command line, relative to `src`.
 fn sources() -> Vec<(String, String)> {
+    rust_files("src")
+}
+
+/// Every Rust file below a folder, relative to it.
+fn rust_files(folder: &str) -> Vec<(String, String)> {
     fn walk(folder: &Path, out: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
@@ -25,7 +30,7 @@ fn sources() -> Vec<(String, String)> {
             }
         }
     }
-    let src = root().join("src");
+    let src = root().join(folder);
     let mut paths = Vec::new();
     walk(&src, &mut paths);
     paths.sort();
@@ -246,7 +251,87 @@ fn one_file_names_each_borrowed_engine() {
 
 #[test]
 fn tests_are_never_ignored() {
-    for (name, text) in sources() {
-        assert!(!text.contains(concat!("#[", "ignore")), "src/{name}");
+    for folder in ["src", "tests"] {
+        for (name, text) in rust_files(folder) {
+            assert!(!text.contains(concat!("#[", "ignore")), "{folder}/{name}");
+        }
+    }
+}
+
+/// Whether a licence expression of the packages' kind is met by what `allowed` says of each
+/// name: `A OR B`, `A/B`, `A AND B`, `A WITH x`, parentheses.
+fn met(expression: &str, allowed: &impl Fn(&str) -> bool) -> bool {
+    let text = expression.replace('/', " OR ").replace('(', " ( ").replace(')', " ) ");
+    let mut words: Vec<&str> = text.split_whitespace().rev().collect();
+    let met = any(&mut words, allowed);
+    assert!(words.is_empty(), "not understood: {expression}");
+    met
+}
+
+fn any(words: &mut Vec<&str>, allowed: &impl Fn(&str) -> bool) -> bool {
+    let mut met = all(words, allowed);
+    while words.last() == Some(&"OR") {
+        words.pop();
+        met |= all(words, allowed);
+    }
+    met
+}
+
+fn all(words: &mut Vec<&str>, allowed: &impl Fn(&str) -> bool) -> bool {
+    let mut met = true;
+    loop {
+        met &= match words.pop() {
+            Some("(") => {
+                let inner = any(words, allowed);
+                assert_eq!(words.pop(), Some(")"));
+                inner
+            }
+            Some(name) if words.last() == Some(&"WITH") => {
+                words.pop();
+                allowed(&format!("{name} WITH {}", words.pop().unwrap()))
+            }
+            Some(name) => allowed(name),
+            None => panic!("a licence expression ends too early"),
+        };
+        if words.last() != Some(&"AND") {
+            return met;
+        }
+        words.pop();
+    }
+}
+
+#[test]
+fn licence_expressions_are_understood() {
+    let allowed = |name: &str| name == "A" || name == "B WITH x";
+    for (expression, expected) in [
+        ("A", true),
+        ("C", false),
+        ("C/A", true),
+        ("A OR C AND C", true),
+        ("C OR A AND C", false),
+        ("(C OR A) AND C", false),
+        ("(A OR C) AND B WITH x", true),
+        ("B", false),
+    ] {
+        assert_eq!(met(expression, &allowed), expected, "{expression}");
+    }
+}
+
+#[test]
+fn every_package_has_a_licence_that_deny_toml_allows() {
+    let deny = read("deny.toml");
+    let quoted = |line: &str| -> Vec<String> {
+        line.split('"').skip(1).step_by(2).map(str::to_owned).collect()
+    };
+    let line = |start: &str| deny.lines().find(|l| l.starts_with(start)).map(quoted).unwrap();
+    let (allow, exception) = (line("allow = "), line("exceptions = "));
+    assert!(!allow.is_empty() && exception.len() == 2);
+    let metadata = metadata();
+    for p in metadata["packages"].as_array().unwrap() {
+        let (name, licence) = (p["name"].as_str().unwrap(), p["license"].as_str());
+        let licence = licence.unwrap_or_else(|| panic!("{name} names no licence"));
+        let allowed =
+            |l: &str| allow.iter().any(|a| a == l) || (exception[0] == name && exception[1] == l);
+        assert!(met(licence, &allowed), "{name}: {licence}");
     }
 }
