@@ -1,0 +1,105 @@
+//! `morula info` and `morula sample`.
+
+use super::*;
+
+#[test]
+fn info_tells_report_and_moments() {
+    let words = succeeds(&["info", "sample:box"]);
+    assert!(words.contains("watertight        yes") && words.contains("quaternion"), "{words}");
+    let v: Value = serde_json::from_str(&succeeds(&["info", "sample:box,a=2", "--json"])).unwrap();
+    assert!((v["volume"].as_f64().unwrap() - 2.0).abs() < 1e-12);
+    assert_eq!(v["report"]["watertight"], true);
+    assert_eq!(v["quaternion"].as_array().unwrap().len(), 4);
+    let scaled = succeeds(&["info", "sample:box", "--json", "--length-unit", "0.5"]);
+    let v: Value = serde_json::from_str(&scaled).unwrap();
+    assert!((v["volume"].as_f64().unwrap() - 0.125).abs() < 1e-12);
+}
+
+/// A version 1.0 .npy file of unsigned bytes in C order.
+fn npy(shape: &str, data: &[u8]) -> Vec<u8> {
+    let mut header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}");
+    while (10 + header.len() + 1) % 64 != 0 {
+        header.push(' ');
+    }
+    header.push('\n');
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(data);
+    bytes
+}
+
+#[test]
+fn voxels_and_labels_are_read() {
+    let folder = folder("voxels");
+    let path = folder.join("labels.npy");
+    // Two boxes in 10 × 9 × 8 cells (x, y, z): label 1 of 4 × 4 × 4, label 7 at the border.
+    let mut data = vec![0u8; 10 * 9 * 8];
+    for (z, y, x) in (0..8).flat_map(|z| (0..9).flat_map(move |y| (0..10).map(move |x| (z, y, x))))
+    {
+        let cell = &mut data[x + 10 * (y + 9 * z)];
+        if (1..5).contains(&x) && (2..6).contains(&y) && (3..7).contains(&z) {
+            *cell = 1;
+        } else if x >= 7 {
+            *cell = 7;
+        }
+    }
+    std::fs::write(&path, npy("(8, 9, 10)", &data)).unwrap();
+    let printed = succeeds(&["info", text(&path), "--labels", "--json"]);
+    let v: Value = serde_json::from_str(&printed).unwrap();
+    let labels = v["labels"].as_array().unwrap();
+    assert_eq!(labels.len(), 2, "{v}");
+    assert_eq!((&labels[0]["label"], &labels[0]["cells"]), (&1.into(), &64.into()));
+    assert_eq!(labels[0]["first"], serde_json::json!([1, 2, 3]));
+    assert_eq!((&labels[1]["label"], &labels[1]["touches_border"]), (&7.into(), &true.into()));
+    let table = succeeds(&["info", text(&path), "--labels"]);
+    assert_eq!(table.lines().count(), 3, "{table}");
+
+    let printed = succeeds(&["info", text(&path), "--label", "1", "--spacing", "1,2,3", "--json"]);
+    let v: Value = serde_json::from_str(&printed).unwrap();
+    assert!((v["volume"].as_f64().unwrap() - 64.0 * 6.0).abs() < 1e-9, "{v}");
+    let raw = folder.join("mask.raw");
+    std::fs::write(&raw, &data).unwrap();
+    let printed = succeeds(&[
+        "info",
+        text(&raw),
+        "--raw",
+        "10x9x8:u8",
+        "--threshold",
+        "0",
+        "--bodies",
+        "all",
+        "--json",
+    ]);
+    let v: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(v["report"]["solid_cells"], 64 + 3 * 9 * 8);
+}
+
+#[test]
+fn samples_read_back_in_every_format() {
+    let folder = folder("samples");
+    let list = succeeds(&["sample", "--list"]);
+    for name in ["tablet", "mandm", "stone", "ellipsoid"] {
+        assert!(list.lines().any(|l| l.starts_with(name)), "{list}");
+    }
+    let mut volumes = Vec::new();
+    for file in ["t.stl", "t.ply", "t.off", "t.obj"] {
+        let path = folder.join(file);
+        let said = succeeds(&["sample", "tablet", "--segments", "48", "-o", text(&path)]);
+        assert_eq!(said, "", "not silent in a pipe");
+        let v: Value = serde_json::from_str(&succeeds(&["info", text(&path), "--json"])).unwrap();
+        assert_eq!(v["report"]["watertight"], true, "{file}");
+        volumes.push(v["volume"].as_f64().unwrap());
+    }
+    for v in &volumes {
+        assert!((v / volumes[0] - 1.0).abs() < 1e-6, "{volumes:?}");
+        assert!((v / 531.104 - 1.0).abs() < 0.01, "{volumes:?}");
+    }
+    let stone = |seed: &str, file: &str| {
+        let path = folder.join(file);
+        succeeds(&["sample", "stone", "--seed", seed, "-o", text(&path), "-q"]);
+        std::fs::read(path).unwrap()
+    };
+    assert_eq!(stone("7", "a.ply"), stone("7", "b.ply"));
+    assert_ne!(stone("7", "a.ply"), stone("8", "c.ply"));
+}
