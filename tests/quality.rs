@@ -96,6 +96,80 @@ fn protrusion_misses_no_sphere() {
     assert!((q.protrusion - 0.002).abs() < 1.1e-4, "{}", q.protrusion);
 }
 
+/// A box (corners counted x fastest, faces outward), or a cavity of that form.
+fn cuboid(lo: [f64; 3], hi: [f64; 3], inward: bool, mesh: &mut (Vec<[f64; 3]>, Vec<[u32; 3]>)) {
+    let first = mesh.0.len() as u32;
+    for c in 0..8 {
+        mesh.0.push([0, 1, 2].map(|a| if c >> a & 1 == 1 { hi[a] } else { lo[a] }));
+    }
+    for f in [
+        [0, 2, 3],
+        [0, 3, 1],
+        [4, 5, 7],
+        [4, 7, 6],
+        [0, 1, 5],
+        [0, 5, 4],
+        [2, 6, 7],
+        [2, 7, 3],
+        [0, 4, 6],
+        [0, 6, 2],
+        [1, 3, 7],
+        [1, 7, 5],
+    ] {
+        let [a, b, c] = f.map(|v| v + first);
+        mesh.1.push(if inward { [a, c, b] } else { [a, b, c] });
+    }
+}
+
+#[test]
+fn a_ball_that_fills_a_cavity_protrudes() {
+    let mut mesh = (Vec::new(), Vec::new());
+    cuboid([-2.0; 3], [2.0; 3], false, &mut mesh);
+    cuboid([0.4, -0.3, -0.3], [1.0, 0.3, 0.3], true, &mut mesh);
+    let run = Run::serial();
+    let shape = Shape::from_mesh(&mesh.0, &mesh.1, &ImportOptions::default(), &run).unwrap();
+    let hollow = Solid::new(&shape, &SolidOptions::default(), &run).unwrap();
+    // Centre and whole surface in the material; only the cavity's middle tells.
+    let q = measure(&hollow, &[sphere([0.0; 3], 1.5)], 64);
+    let lacks = 0.3 - q.protrusion;
+    assert!((-1e-9..=q.distance_bound + 1e-9).contains(&lacks), "{} {}", lacks, q.distance_bound);
+    let diameter = (6.0 / PI * (64.0 - 0.216f64)).cbrt();
+    assert!(q.distance_bound < 0.005 * diameter, "{}", q.distance_bound);
+    // A ball beside the cavity stays in.
+    assert_eq!(measure(&hollow, &[sphere([-0.9, 0.0, 0.0], 1.0)], 64).protrusion, 0.0);
+}
+
+#[test]
+fn a_ball_in_the_hole_of_a_torus() {
+    let (major, minor) = (1.0, 0.3);
+    let ring = solid(Primitive::Torus { major, minor }, 96);
+    for r in [0.5f64, 0.8] {
+        let q = measure(&ring, &[sphere([0.0; 3], r)], 64);
+        // Farthest are the poles; the middle of the hole comes second.
+        let poles = (major * major + r * r).sqrt() - minor;
+        assert!((q.protrusion / poles - 1.0).abs() < 3e-3, "{} {poles}", q.protrusion);
+    }
+}
+
+/// How near the greatest distances are known does not grow with the number of spheres.
+#[test]
+fn the_distance_bound_stays_small() {
+    let target = solid(Primitive::Ellipsoid { axes: [1.0, 0.8, 0.5] }, 32);
+    let diameter = 2.0 * (0.4f64).cbrt();
+    for n in [40u32, 400] {
+        // On the surface of a smaller ellipsoid, so that all lies about as far away.
+        let spheres: Vec<Sphere> = (0..n)
+            .map(|i| {
+                let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(n);
+                let (s, t) = ((1.0 - z * z).sqrt(), 2.399_963 * f64::from(i));
+                sphere([0.71 * s * t.cos(), 0.51 * s * t.sin(), 0.21 * z], 0.28)
+            })
+            .collect();
+        let q = measure(&target, &spheres, 64);
+        assert!(q.distance_bound <= 0.005 * diameter, "{n}: {}", q.distance_bound);
+    }
+}
+
 #[test]
 fn scaling_by_two_changes_no_bit() {
     let spheres = [sphere([0.1, 0.2, -0.3], 0.7), sphere([-0.4, 0.1, 0.2], 0.6)];

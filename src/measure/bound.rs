@@ -5,7 +5,8 @@ use crate::error::Result;
 use crate::run::Run;
 use std::collections::BinaryHeap;
 
-/// Pieces looked at together: fixed, so that the result does not depend on the threads.
+/// Pieces that one thread looks at together: fixed, so that the result does not depend on the
+/// threads.
 const BATCH: usize = 64;
 
 /// What is known of a piece.
@@ -52,22 +53,37 @@ impl<T> Ord for Entry<T> {
     }
 }
 
-/// The greatest value over `roots`, at least `start` (a value already attained), to within the
-/// greater of `tolerance` (a length, a share of the value), or as near as `most` further pieces allow.
+/// How near the greatest value is to be found.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Aim {
+    /// Within the greater of a length and a share of the value, …
+    pub length: f64,
+    pub share: f64,
+    /// … or as near as this many pieces allow, …
+    pub most: u64,
+    /// … which go on, up to [`MORE`] times as many, while it is not known to within this length.
+    pub coarse: f64,
+}
+
+/// See [`Aim`].
+const MORE: u64 = 16;
+
+/// The greatest value over `roots`, at least `start` (a value already attained). `split` appends
+/// the parts of a piece.
 pub(super) fn greatest<T: Copy + Send + Sync>(
     roots: Vec<T>,
     start: f64,
-    tolerance: [f64; 2],
-    most: u64,
+    aim: Aim,
     run: &Run,
     look: impl Fn(&T) -> Range + Sync + Send,
-    split: impl Fn(&T) -> [T; 4],
+    split: impl Fn(&T, &mut Vec<T>),
 ) -> Result<Greatest> {
     let mut value = start;
     let mut heap: BinaryHeap<Entry<T>> = BinaryHeap::new();
     let mut order = 0u64;
     let mut pieces = roots;
-    let allowed = most + pieces.len() as u64;
+    let fine = aim.most + pieces.len() as u64;
+    let allowed = MORE * aim.most + pieces.len() as u64;
     loop {
         let chunks = pieces.len().div_ceil(BATCH);
         let ranges = run
@@ -78,7 +94,7 @@ pub(super) fn greatest<T: Copy + Send + Sync>(
             })
             .concat();
         value = ranges.iter().map(|r| r.attained).fold(value, f64::max);
-        let slack = tolerance[0].max(tolerance[1] * value);
+        let slack = aim.length.max(aim.share * value);
         for (&piece, range) in pieces.iter().zip(&ranges) {
             order += 1;
             if range.bound > value + slack {
@@ -88,14 +104,16 @@ pub(super) fn greatest<T: Copy + Send + Sync>(
         // The greatest bound that is still open.
         let top = heap.peek().map_or(value, |e| e.bound);
         pieces.clear();
-        while pieces.len() < BATCH
+        while pieces.len() < 4 * BATCH
             && let Some(e) = heap.pop()
             && e.bound > value + slack
         {
-            pieces.extend(split(&e.piece));
+            split(&e.piece, &mut pieces);
         }
         run.check(0.0, "measuring the surface")?;
-        if pieces.is_empty() || order + pieces.len() as u64 > allowed {
+        let after = order + pieces.len() as u64;
+        let enough = after > allowed || after > fine && top - value <= aim.coarse;
+        if pieces.is_empty() || enough {
             let slack = if pieces.is_empty() { slack } else { slack.max(top - value) };
             return Ok(Greatest { value, slack, looked_at: order });
         }

@@ -1,18 +1,19 @@
 //! How far a clump is from its solid, independent of the grid that made it.
 
+mod arcs;
 mod bound;
 mod overlap;
 mod pieces;
 mod planes;
+mod reach;
 mod surface;
+mod tree;
 mod union;
 
 use crate::error::{Error, Result, reserve};
 use crate::math::Sphere;
 use crate::run::Run;
-use crate::shape::Body;
 use crate::solid::Solid;
-use union::Union;
 
 /// What is measured, and how finely.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,14 +117,9 @@ pub fn quality(
         q.moment_errors = o.moment_errors;
     }
     if options.surface {
-        let whole = match solid.body() {
-            Body::Mesh(m) => m.clean && solid.unit_moments().relative_error == 0.0,
-            Body::Voxels(_) => true,
-        };
-        let union = Union::new(&unit, run.pool())?;
         // As many samples to the lattice's finest area for any number of columns.
         let wanted = (64 * options.columns).clamp(1024, 1 << 16);
-        let f = surface::surface(solid.surface(run)?, solid.body(), whole, &union, wanted, run)?;
+        let f = surface::surface(solid, &unit, wanted, run)?;
         run.count(|c| c.exact_distances += f.distances);
         q.protrusion = f.protrusion * scale;
         q.rms_distance = f.rms * scale;
