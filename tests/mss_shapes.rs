@@ -62,16 +62,63 @@ fn balls(list: &[([f64; 3], f64)]) -> impl Fn([f64; 3]) -> bool {
     move |p| list.iter().any(|(c, r)| square(p, *c) <= r * r)
 }
 
+/// Positions between cells, spread evenly (multiples of the generalised golden ratio).
+fn between(n: usize) -> [f64; 3] {
+    [0.819_172_5, 0.671_043_6, 0.549_700_5].map(|g| (n as f64 * g).fract())
+}
+
 #[test]
 fn balls_of_voxels_have_no_bias() {
-    for (n, r) in [5.0, 7.3, 10.0, 15.6, 20.0].into_iter().enumerate() {
-        let c = [r + 3.1 + 0.17 * n as f64, r + 3.4, r + 3.7 - 0.11 * n as f64];
-        let size = (2.0 * r) as usize + 8;
-        let (solid, _) = cells([size; 3], [1.0; 3], &balls(&[(c, r)]));
-        let s = make(&solid, &ask(1)).spheres[0];
-        assert!((s.radius - r).abs() < 0.3, "radius {} of {r}", s.radius);
-        let off = square(s.center.into(), c).sqrt();
-        assert!(off < 0.3, "centre of the ball of radius {r} is {off} off");
+    for (r, positions) in [(5.0, 20), (6.3, 12), (7.3, 12), (10.0, 8), (15.6, 4), (20.0, 4)] {
+        let mut bias = 0.0;
+        for n in 0..positions {
+            let c = between(n + 1).map(|x| r + 3.0 + x);
+            let size = (2.0 * r) as usize + 8;
+            let (solid, _) = cells([size; 3], [1.0; 3], &balls(&[(c, r)]));
+            let s = make(&solid, &ask(1)).spheres[0];
+            let off = square(s.center.into(), c).sqrt();
+            assert!((s.radius - r).abs() < 0.1, "radius {} of {r} at {c:?}", s.radius);
+            assert!(off < 0.1, "centre of {r} at {c:?} is {off} off");
+            bias += (s.radius - r) / positions as f64;
+        }
+        assert!(bias.abs() < 0.05, "radius {r}: mean {bias:+}");
+    }
+}
+
+#[test]
+fn cylinders_and_turned_cubes_of_voxels_have_no_bias() {
+    for (r, most) in [(5.0, 0.2), (10.0, 0.15), (20.0, 0.1)] {
+        let mut bias = [0.0; 2];
+        for n in 0..6 {
+            let c = between(n + 1).map(|x| r + 3.0 + x);
+            let round = |p: [f64; 3]| {
+                (p[0] - c[0]).powi(2) + (p[1] - c[1]).powi(2) <= r * r
+                    && p[2] > 2.5
+                    && p[2] < 4.0 * r
+            };
+            let size = (2.0 * r) as usize + 8;
+            let (solid, _) = cells([size, size, 4 * r as usize + 4], [1.0; 3], &round);
+            let s = make(&solid, &ask(1)).spheres[0];
+            bias[0] += (s.radius - r) / 6.0;
+            // Turned by a proper quaternion, another one each time.
+            let q = [1.0 + n as f64, 2.0, 3.0 - n as f64, 1.5];
+            let norm = q.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
+            let [w, x, y, z] = q.map(|v| v / norm);
+            let axes = [
+                [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+                [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+                [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+            ];
+            let c = c.map(|x| x + 0.8 * r);
+            let cube = |p: [f64; 3]| {
+                let d: [f64; 3] = std::array::from_fn(|a| p[a] - c[a]);
+                axes.iter().all(|e| (e[0] * d[0] + e[1] * d[1] + e[2] * d[2]).abs() <= r)
+            };
+            let (solid, _) = cells([(3.6 * r) as usize + 8; 3], [1.0; 3], &cube);
+            let s = make(&solid, &ask(1)).spheres[0];
+            bias[1] += (s.radius - r) / 6.0;
+        }
+        assert!(bias.iter().all(|b| b.abs() < most), "half edge {r}: {bias:?}");
     }
 }
 

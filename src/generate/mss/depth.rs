@@ -1,14 +1,14 @@
 //! How deep a point lies below the surface: the radius that a sphere has there.
 //!
-//! The distance transform of cells is not that depth: it measures to the
-//! nearest *empty cell centre*, which lies half a cell beyond a flat face along
-//! the axes but nearly nothing beyond a round one, where many cells compete to be
-//! nearest. Meshes have their exact distance. For voxels, each empty cell that
-//! could be nearest carries its expected distance to the surface, told by how
-//! full its neighbourhood is: smoothed with the weights (1, 2, 1)/4 along each
-//! axis, an empty cell on a flat face is a quarter full, one in a round face nearly half. The
-//! depth is the distance to the nearest empty cells less what they carry. The
-//! figures are in docs/mss.md.
+//! The distance transform of cells is not that depth: it measures to the nearest *empty cell
+//! centre*, which lies half a cell beyond a flat face along the axes but nearly nothing beyond a
+//! round or slanted one, where many cells compete to be nearest. Meshes have their exact
+//! distance. For voxels all that is known is that the surface passes between an empty cell and
+//! the solid ones that share a face with it. On a flat face along the axes the farthest of
+//! them lies a whole cell before the nearest empty one; elsewhere, of the many empty cells that
+//! are about as near, one has a solid neighbour that is nearly as far. The depth is the middle
+//! between: the distance to the nearest empty cell less half the smallest gap. The figures are in
+//! docs/mss.md.
 
 use super::lattice::Lattice;
 use crate::error::{Result, filled};
@@ -16,15 +16,37 @@ use crate::error::{Result, filled};
 /// Cells along each edge of a bucket.
 const BUCKET: usize = 8;
 
-/// Empty cells this much farther than the nearest, in cells, count as well.
-const NEARLY: f64 = 0.02;
+/// Empty cells this much farther than the nearest, in cells, count as well: so little that on a
+/// slant it makes no difference, so much that on round faces there are several.
+const NEARLY: f64 = 0.1;
 
-/// An empty cell with a solid neighbour.
+/// An empty cell with solid neighbours.
 #[derive(Debug, Clone, Copy)]
 struct Rim {
     cell: [u32; 3],
-    /// Expected distance of its centre from the surface.
-    beyond: f32,
+    /// Bit 2a for a solid cell before it along axis a, bit 2a + 1 for one behind it.
+    solid: u32,
+}
+
+impl Rim {
+    /// Offset of its centre from `p`.
+    fn from(&self, p: &[f64; 3], step: &[f64; 3]) -> [f64; 3] {
+        std::array::from_fn(|a| f64::from(self.cell[a]) * step[a] - p[a])
+    }
+
+    /// How much nearer the farthest solid neighbour is that is nearer; `d2` is its own squared
+    /// distance.
+    fn gap(&self, p: &[f64; 3], step: &[f64; 3], d2: f64) -> Option<f64> {
+        let d = self.from(p, step);
+        let sides = (0..6).filter(|n| self.solid >> n & 1 == 1);
+        // The neighbour's squared distance less d².
+        let more = |n: usize| {
+            let (a, s) = (n / 2, [-step[n / 2], step[n / 2]][n % 2]);
+            s * (2.0 * d[a] + s)
+        };
+        let farthest = sides.map(more).filter(|m| *m < 0.0).reduce(f64::max)?;
+        Some(d2.sqrt() - (d2 + farthest).max(0.0).sqrt())
+    }
 }
 
 /// The empty cells beside solid ones, in buckets.
@@ -50,12 +72,12 @@ impl Rims {
             starts[n] += starts[n - 1];
         }
         let count = starts.last().map_or(0, |n| *n as usize);
-        let mut rims = filled("the rim", count, Rim { cell: [0; 3], beyond: 0.0 })?;
+        let mut rims = filled("the rim", count, Rim { cell: [0; 3], solid: 0 })?;
         // Each start moves to its end, which is the next one's start.
         rim_cells(lattice, bits, |cell| {
             let next = &mut starts[bucket(&cell)];
             if let Some(rim) = rims.get_mut(*next as usize) {
-                *rim = Rim { cell, beyond: beyond(lattice, bits, &cell) };
+                *rim = Rim { cell, solid: solid_sides(lattice, bits, &cell) };
             }
             *next += 1;
         });
@@ -71,9 +93,9 @@ impl Rims {
         self.rims.len() * size_of::<Rim>() + self.starts.len() * size_of::<u32>()
     }
 
-    /// Distance from `p` to the surface, and to the nearest empty cell centre. `within` must
-    /// not be less than the latter.
-    pub fn depth(&self, p: &[f64; 3], within: f64) -> (f64, f64) {
+    /// Distance from `p` to the surface. `within` must not be less than that to the nearest
+    /// empty cell centre.
+    pub fn depth(&self, p: &[f64; 3], within: f64) -> f64 {
         let mut best = within * within;
         self.around(p, within, |d2, _| {
             best = best.min(d2);
@@ -81,20 +103,21 @@ impl Rims {
         });
         let nearest = best.sqrt();
         let limit = nearest + NEARLY;
-        let (mut sum, mut count) = (0.0, 0.0);
-        self.around(p, limit, |d2, beyond| {
-            if d2 <= limit * limit {
-                sum += f64::from(beyond);
-                count += 1.0;
+        let mut gap: Option<f64> = None;
+        self.around(p, limit, |d2, rim| {
+            if d2 <= limit * limit
+                && let Some(next) = rim.gap(p, &self.step, d2)
+            {
+                gap = Some(gap.map_or(next, |g| g.min(next)));
             }
             limit * limit
         });
-        if count > 0.0 { ((nearest - sum / count).max(0.0), nearest) } else { (nearest, nearest) }
+        nearest - 0.5 * gap.unwrap_or(0.0)
     }
 
     /// Visits the rim in the buckets nearer than `within`; the visitor returns the
     /// squared distance beyond which nothing matters any more.
-    fn around(&self, p: &[f64; 3], within: f64, mut visit: impl FnMut(f64, f32) -> f64) {
+    fn around(&self, p: &[f64; 3], within: f64, mut visit: impl FnMut(f64, &Rim) -> f64) {
         let mut limit = within * within;
         let edge = self.step.map(|s| s * BUCKET as f64);
         let reach = |a: usize, at: f64| {
@@ -124,12 +147,8 @@ impl Rims {
                         continue;
                     };
                     for r in self.rims.get(from as usize..to as usize).unwrap_or(&[]) {
-                        let mut d2 = 0.0;
-                        for (x, q) in p.iter().enumerate() {
-                            let d = f64::from(r.cell[x]) * self.step[x] - q;
-                            d2 += d * d;
-                        }
-                        limit = visit(d2, r.beyond);
+                        let d = r.from(p, &self.step);
+                        limit = visit(d[0] * d[0] + d[1] * d[1] + d[2] * d[2], r);
                     }
                 }
             }
@@ -176,66 +195,15 @@ fn rim_cells(lattice: &Lattice, bits: &[u64], mut found: impl FnMut([u32; 3])) {
     }
 }
 
-const SMOOTH: [i32; 5] = [0, 1, 2, 1, 0];
-const SLOPE: [i32; 5] = [-1, -2, 0, 2, 1];
-
-/// The bits of the cells i − 2 … i + 2 of a row.
-fn window(lattice: &Lattice, bits: &[u64], i: u32, j: usize, k: usize) -> u64 {
-    if j >= lattice.dims[1] || k >= lattice.dims[2] {
-        return 0;
+/// Which of the cells that share a face with the cell are solid, as in [`Rim::solid`].
+fn solid_sides(lattice: &Lattice, bits: &[u64], cell: &[u32; 3]) -> u32 {
+    let mut sides = 0;
+    for n in 0..6 {
+        let mut c = cell.map(|x| x as usize);
+        c[n / 2] = if n % 2 == 0 { c[n / 2].wrapping_sub(1) } else { c[n / 2] + 1 };
+        sides |= u32::from(lattice.get(bits, c[0], c[1], c[2])) << n;
     }
-    let start = lattice.words * (j + lattice.dims[1] * k);
-    let Some(row) = bits.get(start..start + lattice.words) else { return 0 };
-    let word = |n: usize| row.get(n).copied().unwrap_or(0);
-    if i < 2 {
-        return word(0) << (2 - i) & 31;
-    }
-    let first = i as usize - 2;
-    let (w, b) = (first / 64, first % 64);
-    let high = if b > 59 { word(w + 1) << (64 - b) } else { 0 };
-    (word(w) >> b | high) & 31
-}
-
-/// Expected distance of an empty cell's centre from the surface, when it is the nearest to some
-/// centre: half a cell on a flat face, where the smoothed occupancy g is ¼ and falls by ½ a cell;
-/// less where g is nearer to ½. The cube is fitted to balls, boxes and turned boxes: cells are
-/// nearest because the surface comes close to them, so a partly flat face counts for little.
-fn beyond(lattice: &Lattice, bits: &[u64], cell: &[u32; 3]) -> f32 {
-    let mut moments = [0i32; 4];
-    // Smoothed occupancy, and its central differences: (1, 2, 1) against (−1, −2, 0, 2, 1) / 2.
-    for z in 0..5 {
-        for y in 0..5 {
-            let (Some(j), Some(k)) =
-                ((cell[1] as usize + y).checked_sub(2), (cell[2] as usize + z).checked_sub(2))
-            else {
-                continue;
-            };
-            let five = window(lattice, bits, cell[0], j, k);
-            if five == 0 {
-                continue;
-            }
-            let sum = |weights: [i32; 5]| -> i32 {
-                weights.iter().enumerate().map(|(x, w)| w * (five >> x & 1) as i32).sum()
-            };
-            let (smooth, slope) = (sum(SMOOTH), sum(SLOPE));
-            moments[0] += smooth * SMOOTH[y] * SMOOTH[z];
-            moments[1] += slope * SMOOTH[y] * SMOOTH[z];
-            moments[2] += smooth * SLOPE[y] * SMOOTH[z];
-            moments[3] += smooth * SMOOTH[y] * SLOPE[z];
-        }
-    }
-    let full = f64::from(moments[0]) / 64.0;
-    // Halved once more: a central difference spans two cells.
-    let slope: [f64; 3] =
-        std::array::from_fn(|a| f64::from(moments[a + 1]) / 128.0 / lattice.step[a]);
-    let steep = (slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2]).sqrt();
-    if steep <= 0.0 {
-        return 0.5 * lattice.step[0].min(lattice.step[1]).min(lattice.step[2]) as f32;
-    }
-    // Width of a cell along the slope.
-    let width: f64 = (0..3).map(|a| (slope[a] / steep).powi(2) * lattice.step[a]).sum();
-    let flat = ((0.5 - full) / steep / (0.5 * width)).clamp(0.0, 1.0);
-    (0.5 * width * flat.powi(3)) as f32
+    sides
 }
 
 #[cfg(test)]
@@ -243,21 +211,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn windows_and_rims_are_those_of_the_cells() {
+    fn rims_are_the_empty_cells_beside_solid_ones() {
         let l = Lattice::new([131, 6, 5], [1.0; 3]);
         let mask: Vec<u8> = (0..131 * 6 * 5).map(|n| u8::from(n * n % 11 < 4)).collect();
         let bits = l.pack(&mask).unwrap();
-        let mut rims = Vec::new();
-        rim_cells(&l, &bits, |c| rims.push(c));
         let mut slow = Vec::new();
-        for k in 0..5 {
-            for j in 0..6 {
+        for k in 0..5usize {
+            for j in 0..6usize {
                 for i in 0..131usize {
-                    let five = (0..5).fold(0, |w, x| {
-                        w | u64::from((i + x).checked_sub(2).is_some_and(|q| l.get(&bits, q, j, k)))
-                            << x
-                    });
-                    assert_eq!(window(&l, &bits, i as u32, j, k), five, "{i} {j} {k}");
                     let beside = [
                         (i.wrapping_sub(1), j, k),
                         (i + 1, j, k),
@@ -267,23 +228,75 @@ mod tests {
                         (i, j, k + 1),
                     ];
                     let solid = |(a, b, c): &(usize, usize, usize)| l.get(&bits, *a, *b, *c);
-                    if !solid(&(i, j, k)) && beside.iter().any(solid) {
-                        slow.push([i as u32, j as u32, k as u32]);
+                    let sides = (0..6).filter(|n| solid(&beside[*n])).fold(0, |s, n| s | 1 << n);
+                    if !solid(&(i, j, k)) && sides != 0 {
+                        slow.push((k, j, i, sides));
                     }
                 }
             }
         }
-        assert_eq!(rims, slow);
+        let rims = Rims::find(&l, &bits).unwrap().rims;
+        let mut found: Vec<_> = rims
+            .iter()
+            .map(|r| (r.cell[2] as usize, r.cell[1] as usize, r.cell[0] as usize, r.solid))
+            .collect();
+        found.sort_unstable();
+        assert_eq!(found, slow);
+    }
+
+    /// By all cells: the nearest empty one, and of those about as near the smallest gap.
+    fn slow_depth(l: &Lattice, bits: &[u64], p: &[f64; 3]) -> f64 {
+        let [nx, ny, nz] = l.dims;
+        let away = |c: [usize; 3]| {
+            let d: [f64; 3] = std::array::from_fn(|a| c[a] as f64 * l.step[a] - p[a]);
+            (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+        };
+        let mut empty = Vec::new();
+        for n in 0..nx * ny * nz {
+            let c = [n % nx, n / nx % ny, n / nx / ny];
+            if l.get(bits, c[0], c[1], c[2]) {
+                continue;
+            }
+            let mut gap = f64::INFINITY;
+            for side in 0..6 {
+                let mut q = c;
+                q[side / 2] = (q[side / 2] + side % 2 * 2).wrapping_sub(1);
+                if l.get(bits, q[0], q[1], q[2]) && away(q) < away(c) {
+                    gap = gap.min(away(c) - away(q));
+                }
+            }
+            empty.push((away(c), gap));
+        }
+        let nearest = empty.iter().map(|e| e.0).fold(f64::INFINITY, f64::min);
+        let near = empty.iter().filter(|e| e.0 <= nearest + NEARLY);
+        nearest - 0.5 * near.map(|e| e.1).fold(f64::INFINITY, f64::min)
     }
 
     #[test]
-    fn a_flat_face_lies_half_a_cell_off_and_a_lone_cell_too() {
+    fn depths_are_those_of_a_search_over_all_cells() {
+        let l = Lattice::new([34, 21, 26], [1.0, 1.3, 0.8]);
+        let at = |n: usize| {
+            let c = [n % 34, n / 34 % 21, n / 34 / 21];
+            let q: [f64; 3] = std::array::from_fn(|a| c[a] as f64 * l.step[a]);
+            (q[0] - 16.0).powi(2) / 2.0 + (q[1] - 13.0).powi(2) + (q[2] - 10.0).powi(2)
+        };
+        let mask: Vec<u8> =
+            (0..34 * 21 * 26).map(|n| u8::from(at(n) < 90.0 && n % 34 > 8)).collect();
+        let bits = l.pack(&mask).unwrap();
+        let rims = Rims::find(&l, &bits).unwrap();
+        for n in 0..60 {
+            let f = f64::from(n);
+            let p = [11.0 + 0.17 * f, 8.0 + 0.13 * f, 6.5 + 3.0 * (0.7 * f).sin()];
+            let (fast, slow) = (rims.depth(&p, 20.0), slow_depth(&l, &bits, &p));
+            assert!((fast - slow).abs() < 1e-9, "{p:?}: {fast} and {slow}");
+        }
+    }
+
+    #[test]
+    fn a_flat_face_lies_half_a_cell_before_the_empty_centres() {
         let l = Lattice::new([12; 3], [1.0; 3]);
         let mask: Vec<u8> = (0..1728).map(|n| u8::from(n % 12 < 6)).collect();
-        let bits = l.pack(&mask).unwrap();
-        assert_eq!(beyond(&l, &bits, &[6, 5, 6]), 0.5);
-        let rims = Rims::find(&l, &bits).unwrap();
-        let (depth, nearest) = rims.depth(&[2.0, 6.0, 6.0], 5.0);
-        assert!((depth - 3.5).abs() < 1e-9 && (nearest - 4.0).abs() < 1e-9);
+        let rims = Rims::find(&l, &l.pack(&mask).unwrap()).unwrap();
+        assert!((rims.depth(&[2.0, 6.0, 6.0], 5.0) - 3.5).abs() < 1e-9);
     }
 }

@@ -195,7 +195,7 @@ impl Pool {
         let mut looked: Vec<Entry> = Vec::new();
         let mut interrupted = false;
         for round in 1.. {
-            if round % ASK == 0 && stop(run, chosen) {
+            if usize::is_multiple_of(round, ASK) && stop(run, chosen) {
                 interrupted = true;
                 break;
             }

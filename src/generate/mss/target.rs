@@ -122,7 +122,7 @@ impl<'a> Target<'a> {
         let away: f64 = (0..3).map(|a| (p[a] - c[a] as f64 * self.lattice.step[a]).powi(2)).sum();
         let widest = self.lattice.step.iter().fold(0.0, |m: f64, s| m.max(*s));
         let bound = (f64::from(self.at(c)).max(widest) + away.sqrt()) * (1.0 + 1e-6);
-        let (depth, _) = rims.depth(p, bound);
+        let depth = rims.depth(p, bound);
         match if self.images_differ() { exact() } else { None } {
             Some(exact) if (exact - depth).abs() <= 1.0 => exact,
             _ => depth,
