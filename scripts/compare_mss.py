@@ -2,13 +2,15 @@
 """MSS against the reference implementation of its paper, on the same voxels.
 
 usage: compare_mss.py CACHE [--offset 1.0] [--out docs/mss] [SHAPE ...]
+       compare_mss.py CACHE --record tests/mss_reference.csv
 
 Needs the PyPI package `multisphere` (run by this script's own interpreter, never
 linked), the meshes in $MORULA_DATA/benchmark and
 `cargo build --release --example mss_voxels`. The reference's voxel grids and spheres
 are kept in CACHE, so that it runs once. Both clumps are judged by one
 evaluator: the reference's grid, a cell counts when its centre lies in a sphere.
-Writes OUT.csv and prints a table in markdown.
+Writes OUT.csv and prints a table in markdown; with --record only the reference's figures and
+the size of its grids, for `tests/mss_reference.rs`.
 """
 import contextlib, io, json, os, resource, subprocess, sys, warnings
 
@@ -86,10 +88,12 @@ def main():
         value = args[at + 1]
         del args[at:at + 2]
         return value
+    record = take("--record", None)
     offset, out = float(take("--offset", "1.0")), take("--out", "docs/mss")
     cache, names = args[0], args[1:] or SHAPES + list(PAPER)
     os.makedirs(cache, exist_ok=True)
     rows = []
+    known = []
     for tag in names:
         shape, div, numbers = (*PAPER[tag][:2], [PAPER[tag][2]]) if tag in PAPER else (tag, 100, NUMBERS)
         reference(cache, tag, shape, div, numbers)
@@ -97,6 +101,10 @@ def main():
         for n in numbers:
             with open(f"{cache}/{tag}_{n}.json") as f:
                 ref = json.load(f)
+            if record:
+                figures = (mismatch(target, np.array(ref["spheres_vox"])), *target.shape, np.count_nonzero(target))
+                known.append((shape, div, n, ref["n"], "%.6f" % figures[0], *figures[1:]))
+                continue
             plain, figures = ours(cache, tag, n, 0.0)
             wide, wide_figures = ours(cache, tag, n, offset)
             rows.append(dict(
@@ -105,6 +113,11 @@ def main():
                 offset_cpu=wide_figures["mss_s"], plain_n=len(plain), plain_D=mismatch(target, plain),
                 plain_cpu=figures["mss_s"], bytes_per_cell=figures["bytes"] / figures["cells"]))
             print(rows[-1], file=sys.stderr, flush=True)
+    if record:
+        with open(record, "w") as f:
+            f.write("shape,cells on the shortest side,spheres asked,spheres,D,nx,ny,nz,solid cells\n")
+            f.writelines(",".join(map(str, row)) + "\n" for row in known)
+        return
     with open(f"{out}.csv", "w") as f:
         f.write(",".join(rows[0]) + "\n")
         for r in rows:

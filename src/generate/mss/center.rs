@@ -6,6 +6,10 @@ use super::target::Target;
 /// Steps of the search after the lines, in cells: the first, and the least.
 const STEPS: [f64; 2] = [0.25, 0.01];
 
+/// A gain in depth that is no rounding, in cells: without it the place on a plateau would hang on
+/// the last bits, that change with the unit.
+const GAIN: f64 = 1e-6;
+
 /// Along the axes and the diagonals.
 const WAYS: [[f64; 3]; 14] = [
     [-1.0, 0.0, 0.0],
@@ -48,7 +52,7 @@ pub(super) fn refined(target: &Target, center: &[f64; 3]) -> [f64; 3] {
         }
         target.mirrors.snap(&mut next);
         let deeper = at(&next);
-        if deeper <= depth {
+        if deeper <= depth + GAIN {
             break;
         }
         (here, depth) = (next, deeper);
@@ -58,18 +62,18 @@ pub(super) fn refined(target: &Target, center: &[f64; 3]) -> [f64; 3] {
         if step < STEPS[1] {
             break;
         }
-        let mut deeper = None;
+        let (mut deeper, mut best) = (None, depth);
         for to in WAYS {
             let mut next: [f64; 3] =
                 std::array::from_fn(|a| here[a] + to[a] * step * target.lattice.step[a]);
             target.mirrors.snap(&mut next);
             let there = at(&next);
-            if there > depth {
-                (deeper, depth) = (Some(next), there);
+            if there > best + GAIN {
+                (deeper, best) = (Some(next), there);
             }
         }
         match deeper {
-            Some(next) => here = next,
+            Some(next) => (here, depth) = (next, best),
             None => step *= 0.5,
         }
     }
