@@ -186,7 +186,8 @@ fn d_is_at_most_the_reference_s_on_its_own_voxels() {
     let (mut logarithms, mut count, mut worse) = ([0.0; 2], 0.0, Vec::new());
     for row in rows() {
         // The paper's own grids have 102 cells across.
-        let daily = row.shape != "torus" && (matches!(row.asked, 5 | 10 | 30) || row.across == 102.0);
+        let daily =
+            row.shape != "torus" && (matches!(row.asked, 5 | 10 | 30) || row.across == 102.0);
         if !(full || daily) {
             continue;
         }
