@@ -117,3 +117,19 @@ pub fn filled<T: Clone>(what: &str, len: usize, value: T) -> Result<Vec<T>> {
     v.resize(len, value);
     Ok(v)
 }
+
+/// Pushes `value`, without aborting the process when memory is short. For arrays
+/// that grow with the input where their length is not known before.
+pub fn push<T>(what: &str, v: &mut Vec<T>, value: T) -> Result<()> {
+    if v.len() == v.capacity() {
+        v.try_reserve(1).map_err(|_| {
+            Error::OutOfMemory(format!(
+                "no memory for {what}: more than {} elements of {} bytes",
+                v.len(),
+                std::mem::size_of::<T>()
+            ))
+        })?;
+    }
+    v.push(value);
+    Ok(())
+}
