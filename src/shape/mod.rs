@@ -31,7 +31,8 @@ pub enum Bodies {
 /// How a shape is taken in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportOptions {
-    /// Vertices nearer than this times the longest bounding-box edge are one, where that
+    /// Vertices at open edges that are nearer to each other than this times the longest
+    /// bounding-box edge, and than a quarter of the median edge of the faces, are one where that
     /// closes the surface further than welding equal ones does. 0: only equal ones.
     pub weld_tolerance: f64,
     /// The file's or array's length unit in the caller's unit: coordinates are multiplied by it.

@@ -26,6 +26,35 @@ pub fn options(options: &ImportOptions) -> Result<()> {
     Ok(())
 }
 
+/// How finely the caller's coordinates tell places apart, in the unit frame. Far from the
+/// origin that is coarser than the rounding of the work itself, and what is nearer than
+/// a few such steps cannot be told from what touches.
+#[derive(Debug, Clone, Copy)]
+pub struct Grain(f64);
+
+impl Grain {
+    /// The grain in `frame`.
+    pub fn of(frame: &UnitFrame) -> Grain {
+        Grain(4.0 * f64::EPSILON * (1.0 + frame.offset.amax() / frame.scale))
+    }
+
+    /// What is nearer than this may be in one place.
+    pub fn rounding(self) -> f64 {
+        self.0
+    }
+
+    /// Parts nearer than this touch.
+    pub fn touch(self) -> f64 {
+        self.0.max(1e-9)
+    }
+
+    /// A face lower than this has no area: the rounding of coordinates of size one, with room
+    /// for a few operations.
+    pub fn flat(self) -> f64 {
+        self.0.max(1e-12)
+    }
+}
+
 /// There are faces, no more than can be indexed, and memory for them.
 pub fn counts(vertices: usize, faces: usize, options: &ImportOptions) -> Result<()> {
     if faces == 0 {

@@ -3,17 +3,21 @@
 
 mod check;
 mod cross;
+mod field;
 mod inside;
 mod orient;
 mod parts;
+mod patches;
 mod repair;
 mod topology;
+mod tree;
 mod weld;
 
 use super::{Bodies, Body, ImportOptions, Report, Shape};
-use crate::error::{Error, Result, filled, reserve};
+use crate::error::{Error, Result, filled, push, reserve};
 use crate::math::{UnitFrame, Vec3};
 use crate::run::{Run, Stage};
+use check::Grain;
 use parts::Part;
 use std::sync::Arc;
 use topology::Edges;
@@ -44,8 +48,9 @@ impl Shape {
     /// and frame, `faces` as 0-based vertex indices.
     ///
     /// What is done to it, each with a count and a sentence in the [`Report`]:
-    /// - vertices are welded as far as that closes the surface: equal ones, then those
-    ///   within `weld_tolerance` of the longest edge;
+    /// - vertices are welded as far as that closes the surface: equal ones, then those at
+    ///   edges without exactly two faces within `weld_tolerance` of the longest edge of
+    ///   the box (and a quarter of the median edge of the faces);
     /// - faces without area and faces present more than once are dropped, opposed ones
     ///   between two parts (inner walls) both;
     /// - neighbours are made to agree, and each part is turned outward; a part within
@@ -62,6 +67,9 @@ impl Shape {
     /// directions that are seen through openings: 0 when closed, 0.10 for a box
     /// without a lid, 0.19 for a hemisphere, ½ for a flat sheet. Above 0.4 the inside
     /// is not defined.
+    ///
+    /// Far from the origin coordinates are coarse: what is nearer than four of their steps
+    /// touches, and faces lower than that have no area.
     ///
     /// Errors: `Empty`, `NotFinite`, `IndexOutOfRange`, `TooLarge`, `MemoryLimit`,
     /// `InvalidArgument` (options, or sizes outside of 1e-60 to 1e60), `ZeroVolume`,
@@ -101,11 +109,11 @@ fn import(
     // A frame for the repair; the body's own follows when it is known what stays.
     let frame = check::frame_of(&points, faces)?;
     let mut unit: Vec<Vec3> = reserve("vertices", points.len())?;
-    unit.extend(points.iter().map(|p| frame.to_unit(p)));
-    let weld = weld::weld(&unit, faces, options.weld_tolerance)?;
+    // 0 and -0 are one place.
+    unit.extend(points.iter().map(|p| frame.to_unit(p).map(|x| x + 0.0)));
+    let grain = Grain::of(&frame);
     run.check(0.2, "welding the mesh")?;
-    let kept = repair::close(faces, &unit, &weld, options.weld_tolerance)?;
-    drop(weld);
+    let kept = repair::close(faces, &unit, options.weld_tolerance, grain)?;
     note_repairs(&kept, options, &mut report);
     let mut kept = kept.faces;
     if kept.is_empty() {
@@ -131,9 +139,10 @@ fn import(
     let topology::Patches { of, count } = topology::patches(&kept, &edges)?;
     report.components = count as u64;
     let extents = inside::extents(&kept, &unit, &of, count, &edges)?;
-    let mut parts = parts::parts(&kept, &unit, &of, &extents, run)?;
-    let bodies = parts::bodies(&mut parts, &kept, &unit, run)?;
-    refuse_without_inside(&parts, &kept, &unit, one_sided)?;
+    let parts = parts::parts(&kept, &unit, &of, &extents)?;
+    let mut parts = patches::join(parts, &kept, &unit, grain, run)?;
+    let bodies = parts::bodies(&mut parts, &kept, &unit, grain, run)?;
+    refuse_without_inside(&parts, &kept, &unit, one_sided, grain)?;
     let mut same = true;
     for part in parts.iter().filter(|p| p.turn) {
         same = false;
@@ -202,6 +211,7 @@ fn refuse_without_inside(
     faces: &[[u32; 3]],
     points: &[Vec3],
     one_sided: bool,
+    grain: Grain,
 ) -> Result<()> {
     let area = |solid: bool| -> f64 {
         parts.iter().filter(|p| p.body.is_some() == solid).map(|p| p.extent.area).sum()
@@ -211,7 +221,7 @@ fn refuse_without_inside(
         return Ok(());
     }
     let n = faces.len();
-    if inside::is_flat(faces, points) {
+    if inside::is_flat(faces, points, grain) {
         return Err(Error::ZeroVolume(format!("the {n} faces lie in one plane: no volume")));
     }
     let thin = |p: &Part| p.openness <= inside::MOST_OPEN;
@@ -255,7 +265,8 @@ fn choose(
     if count > 1 {
         match choice {
             Bodies::Refuse => {
-                let mut by_size: Vec<f64> = (0..count).map(volume_of).collect();
+                let mut by_size: Vec<f64> = reserve("bodies", count)?;
+                by_size.extend((0..count).map(volume_of));
                 by_size.sort_by(|a, b| b.total_cmp(a));
                 return Err(Error::SeveralBodies(format!(
                     "the mesh is {count} separate bodies (the largest have volumes {:.6e} and \
@@ -331,7 +342,7 @@ fn finish(
         let old = *corner as usize;
         if index[old] == u32::MAX {
             index[old] = mesh.vertices.len() as u32;
-            mesh.vertices.push(frame.to_unit(&points[old]));
+            push("vertices", &mut mesh.vertices, frame.to_unit(&points[old]))?;
             lo = lo.inf(&points[old]);
             hi = hi.sup(&points[old]);
         }

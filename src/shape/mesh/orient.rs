@@ -33,7 +33,7 @@ pub fn agree(faces: &[[u32; 3]], points: &[Vec3], edges: &Edges) -> Result<Agree
     let mut turn = filled("turns", n, false)?;
     let mut seen = filled("turns", n, false)?;
     let mut one_sided = false;
-    let mut patch: Vec<u32> = Vec::new();
+    let mut patch: Vec<u32> = reserve("a patch", n)?;
     for first in 0..n {
         if seen[first] {
             continue;

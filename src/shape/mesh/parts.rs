@@ -12,24 +12,27 @@
 //!   another, are one body, with its cavities. Parts that only touch in points or
 //!   along lines are separate, as no material joins them; so is a part in a cavity.
 
-use super::cross::{self, Contact, Face};
-use super::inside::{self, Extent, Field, MOST_OPEN};
+use super::check::Grain;
+use super::cross::{self, Contact};
+use super::field::Field;
+use super::inside::{Extent, MOST_OPEN};
 use super::topology::Union;
-use crate::error::{Result, filled};
+use super::tree::{Bounds, Tree};
+use crate::error::{Error, Result, filled, push, reserve};
 use crate::math::Vec3;
 use crate::run::Run;
-
-/// A mean thickness (volume over area, unit frame) below this is rounding.
-pub const THIN: f64 = 1e-9;
 
 /// An open part with less than this of the greatest part's volume is a scrap.
 const SCRAP: f64 = 1e-3;
 
-/// Patches of one surface may be this far apart (unit frame).
-const NEAR: f64 = 1e-3;
-
 /// How many corners of a part are looked up in another.
 const PROBES: usize = 64;
+
+/// Parts that need more looks at faces than this are too entangled: seconds of work.
+const MOST_LOOKS: u64 = 100_000_000;
+
+/// What a pair of parts costs beside the faces.
+const PAIR: u64 = 40;
 
 /// One connected piece of the surface, or several that close each other's openings.
 #[derive(Debug, Clone)]
@@ -44,14 +47,15 @@ pub struct Part {
     pub turn: bool,
     /// Its body; `None` for loose sheets.
     pub body: Option<u32>,
-    lo: Vec3,
-    hi: Vec3,
+    /// The box about it.
+    pub bounds: Bounds,
 }
 
 impl Part {
-    /// Whether it encloses something.
-    pub fn is_solid(&self) -> bool {
-        self.openness <= MOST_OPEN && self.extent.volume.abs() > THIN * self.extent.area
+    /// Whether it encloses something: its mean thickness (volume over area) is more than
+    /// what touches.
+    pub fn is_solid(&self, grain: Grain) -> bool {
+        self.openness <= MOST_OPEN && self.extent.volume.abs() > grain.touch() * self.extent.area
     }
 
     /// Volume with the sign after turning.
@@ -59,107 +63,35 @@ impl Part {
         if self.turn { -self.extent.volume } else { self.extent.volume }
     }
 
-    fn new() -> Part {
+    /// No faces yet.
+    pub fn new() -> Part {
         Part {
             faces: Vec::new(),
             extent: Extent::default(),
             openness: 0.0,
             turn: false,
             body: None,
-            lo: Vec3::repeat(f64::MAX),
-            hi: Vec3::repeat(f64::MIN),
+            bounds: Bounds::empty(),
         }
-    }
-
-    /// Adds the faces of another part; the volume is to be found anew.
-    fn take(&mut self, other: Part) {
-        self.faces.extend(other.faces);
-        self.faces.sort_unstable();
-        self.extent.area += other.extent.area;
-        self.lo = self.lo.inf(&other.lo);
-        self.hi = self.hi.sup(&other.hi);
-    }
-
-    fn boxes_meet(&self, other: &Part, slack: f64) -> bool {
-        (0..3).all(|k| self.lo[k] <= other.hi[k] + slack && other.lo[k] <= self.hi[k] + slack)
-    }
-
-    fn box_holds(&self, other: &Part) -> bool {
-        (0..3).all(|k| self.lo[k] <= other.lo[k] && other.hi[k] <= self.hi[k])
     }
 }
 
-/// The parts of a surface, numbered by `of`, with their extents. Open parts are judged
-/// by their openness, alone and in the field of all.
+/// The parts of a surface, numbered by `of`, with their extents.
 pub fn parts(
     faces: &[[u32; 3]],
     points: &[Vec3],
     of: &[u32],
     extents: &[Extent],
-    run: &Run,
 ) -> Result<Vec<Part>> {
     let mut parts = filled("parts", extents.len(), Part::new())?;
     for (i, (f, &p)) in faces.iter().zip(of).enumerate() {
         let part = &mut parts[p as usize];
-        part.faces.push(i as u32);
-        for &v in f {
-            part.lo = part.lo.inf(&points[v as usize]);
-            part.hi = part.hi.sup(&points[v as usize]);
-        }
+        push("faces of a part", &mut part.faces, i as u32)?;
+        part.bounds = part.bounds.join(&Bounds::of(f.iter().map(|&v| &points[v as usize])));
     }
     for (part, extent) in parts.iter_mut().zip(extents) {
         part.extent = *extent;
     }
-    join_patches(parts, faces, points, run)
-}
-
-/// Judges the open parts, and makes one of those that close each other's openings.
-fn join_patches(
-    mut parts: Vec<Part>,
-    faces: &[[u32; 3]],
-    points: &[Vec3],
-    run: &Run,
-) -> Result<Vec<Part>> {
-    let field = |list: &[u32]| Field::new(list.iter().map(|&i| &faces[i as usize]), points);
-    let spots =
-        |part: &Part| inside::samples(part.faces.iter().map(|&i| &faces[i as usize]), points);
-    let mut open: Vec<usize> = (0..parts.len()).filter(|&i| parts[i].extent.open).collect();
-    let all: Vec<u32> = open.iter().flat_map(|&i| parts[i].faces.iter().copied()).collect();
-    let together = field(&all);
-    let mut closed_by_others = filled("parts", parts.len(), false)?;
-    for &i in &open {
-        run.check(0.5, "judging the openings of the mesh")?;
-        let at = spots(&parts[i]);
-        parts[i].openness = inside::openness(&at, &field(&parts[i].faces), run.pool());
-        if open.len() > 1 {
-            let all = inside::openness(&at, &together, run.pool());
-            closed_by_others[i] = all <= 0.5 * parts[i].openness;
-        }
-    }
-    // Each such part goes to the next larger one that is near; the largest last.
-    open.sort_by(|&a, &b| parts[a].extent.area.total_cmp(&parts[b].extent.area).then(b.cmp(&a)));
-    let mut grown = filled("parts", parts.len(), false)?;
-    for k in 0..open.len() {
-        let i = open[k];
-        if !closed_by_others[i] {
-            continue;
-        }
-        let near = open[k + 1..].iter().copied().find(|&j| parts[i].boxes_meet(&parts[j], NEAR));
-        let Some(j) = near else { continue };
-        let small = std::mem::replace(&mut parts[i], Part::new());
-        parts[j].take(small);
-        grown[j] = true;
-        grown[i] = false;
-    }
-    for i in (0..parts.len()).filter(|&i| grown[i]) {
-        run.check(0.6, "judging the openings of the mesh")?;
-        let mine = parts[i].faces.iter().map(|&f| &faces[f as usize]);
-        parts[i].extent.volume = inside::volume_of_patches(mine, points);
-        parts[i].openness =
-            inside::openness(&spots(&parts[i]), &field(&parts[i].faces), run.pool());
-    }
-    parts.retain(|p| !p.faces.is_empty());
-    parts.sort_by_key(|p| p.faces[0]);
     Ok(parts)
 }
 
@@ -176,9 +108,11 @@ pub fn bodies(
     parts: &mut [Part],
     faces: &[[u32; 3]],
     points: &[Vec3],
+    grain: Grain,
     run: &Run,
 ) -> Result<Bodies> {
-    let mut solid: Vec<usize> = (0..parts.len()).filter(|&i| parts[i].is_solid()).collect();
+    let mut solid: Vec<usize> = reserve("parts", parts.len())?;
+    solid.extend((0..parts.len()).filter(|&i| parts[i].is_solid(grain)));
     let greatest = solid.iter().map(|&i| parts[i].extent.volume.abs()).fold(0.0, f64::max);
     solid.retain(|&i| !parts[i].extent.open || parts[i].extent.volume.abs() >= SCRAP * greatest);
     // Containers first: they have more volume than what is in them.
@@ -186,50 +120,67 @@ pub fn bodies(
         parts[b].extent.volume.abs().total_cmp(&parts[a].extent.volume.abs()).then(a.cmp(&b))
     });
     let n = solid.len();
-    let corners = |i: u32| faces[i as usize].map(|v| points[v as usize]);
     let mut union = Union::new(n)?;
     let mut overlap = false;
     // For each part, those larger ones that it lies in, with their winding number there.
     let mut holders: Vec<Vec<(usize, f64)>> = filled("parts", n, Vec::new())?;
-    let mut fields: Vec<Option<Field>> = (0..n).map(|_| None).collect();
-    for (i, j) in pairs(parts, &solid) {
-        let (big, small) = (&parts[solid[i]], &parts[solid[j]]);
+    let mut fields: Vec<Option<Field>> = reserve("parts", n)?;
+    fields.resize_with(n, || None);
+    let mut looks = 0;
+    let tree = Tree::new(0..n as u32, |k| parts[solid[k as usize]].bounds)?;
+    let mut larger: Vec<usize> = reserve("parts", n)?;
+    for j in 0..n {
         run.check(0.7, "sorting the mesh into bodies")?;
-        // Only faces in the other's box can meet it: a large part may hold many small ones.
-        let boxed = |p: &Part, other: &Part| {
-            let near = |c: &[Vec3; 3]| {
-                (0..3).all(|k| {
-                    c[0][k].min(c[1][k]).min(c[2][k]) <= other.hi[k] + cross::TOUCH
-                        && c[0][k].max(c[1][k]).max(c[2][k]) >= other.lo[k] - cross::TOUCH
-                })
+        pairs(parts, &solid, &tree, j, grain, &mut larger);
+        for &i in &larger {
+            if looks > MOST_LOOKS {
+                return Err(Error::TooLarge(format!(
+                    "the {n} closed parts of the mesh lie so much in each other's boxes that sorting \
+                 them into bodies takes too many comparisons"
+                )));
+            }
+            looks += PAIR;
+            let (big, small) = (&parts[solid[i]], &parts[solid[j]]);
+            for (k, part) in [(i, big), (j, small)] {
+                if fields[k].is_none() {
+                    fields[k] = Some(Field::new(&part.faces, faces, points, grain)?);
+                }
+            }
+            let (Some(field), Some(own)) = (&fields[i], &fields[j]) else { continue };
+            // Only faces in the other's box can meet it: a large part may hold many small ones.
+            let touch = grain.touch();
+            let contact = if big.faces.len() < small.faces.len() {
+                cross::contact(&big.faces, field, own, &small.bounds, touch, &mut looks)
+            } else {
+                cross::contact(&small.faces, own, field, &big.bounds, touch, &mut looks)
             };
-            p.faces.iter().map(|&f| corners(f)).filter(near).map(Face::new).collect::<Vec<_>>()
-        };
-        let contact = cross::contact(&boxed(big, small), &boxed(small, big));
-        let field = fields[i].get_or_insert_with(|| {
-            Field::new(big.faces.iter().map(|&f| &faces[f as usize]), points)
-        });
-        let probes: Vec<f64> = small
-            .faces
-            .iter()
-            .step_by(small.faces.len().div_ceil(PROBES))
-            .map(|&f| field.at(&corners(f)[0]))
-            .collect();
-        // Edges that run just through other edges cross no face: the corners tell. Between
-        // these figures a corner lies on the surface, or near an opening.
-        let split = probes.iter().any(|w| w.abs() > 0.75) && probes.iter().any(|w| w.abs() < 0.25);
-        let crosses = contact == Contact::Cross || split;
-        let mean = probes.iter().sum::<f64>() / probes.len() as f64;
-        if crosses || contact == Contact::Wall {
-            union.join(i as u32, j as u32);
-            overlap |= crosses;
-        } else if mean.abs() > 0.5 && big.box_holds(small) {
-            holders[j].push((i, mean));
+            let step = small.faces.len().div_ceil(PROBES);
+            let mut probes = [0.0; PROBES];
+            let mut count = 0;
+            for (w, &f) in probes.iter_mut().zip(small.faces.iter().step_by(step)) {
+                *w = field.at(&own.corners(f)[0], &mut looks);
+                count += 1;
+            }
+            let probes = &probes[..count];
+            // Edges that run just through other edges cross no face: the corners tell. Between
+            // these figures a corner lies on the surface, or near an opening.
+            let split =
+                probes.iter().any(|w| w.abs() > 0.75) && probes.iter().any(|w| w.abs() < 0.25);
+            let crosses = contact == Contact::Cross || split;
+            let mean = probes.iter().sum::<f64>() / probes.len() as f64;
+            if crosses || contact == Contact::Wall {
+                union.join(i as u32, j as u32);
+                overlap |= crosses;
+            } else if mean.abs() > 0.5 && big.bounds.holds(&small.bounds) {
+                push("holders", &mut holders[j], (i, mean))?;
+            }
         }
     }
     let mut held: Vec<Vec<usize>> = filled("parts", n, Vec::new())?;
     for (k, h) in holders.iter().enumerate() {
-        h.iter().for_each(|&(j, _)| held[j].push(k));
+        for &(j, _) in h {
+            push("holders", &mut held[j], k)?;
+        }
     }
     for j in 0..n {
         // What a holder adds has changed its sign when the holder was turned.
@@ -255,10 +206,11 @@ pub fn bodies(
     }
     let root = union.roots();
     // Number the bodies by their first faces, not by size.
-    let mut firsts: Vec<(usize, u32)> = (0..n).map(|j| (solid[j], root[j])).collect();
+    let mut firsts: Vec<(usize, u32)> = reserve("bodies", n)?;
+    firsts.extend((0..n).map(|j| (solid[j], root[j])));
     firsts.sort_unstable();
     let mut number = filled("bodies", n, u32::MAX)?;
-    let mut volumes = Vec::new();
+    let mut volumes = reserve("bodies", n)?;
     for (i, r) in firsts {
         let r = r as usize;
         if number[r] == u32::MAX {
@@ -271,20 +223,25 @@ pub fn bodies(
     Ok(Bodies { volumes, overlap })
 }
 
-/// Pairs of solid parts whose boxes meet, as places in `solid`, the larger part first;
-/// ordered so that for each smaller part the larger ones come by falling size.
-fn pairs(parts: &[Part], solid: &[usize]) -> Vec<(usize, usize)> {
-    let mut by_x: Vec<usize> = (0..solid.len()).collect();
-    by_x.sort_by(|&a, &b| parts[solid[a]].lo.x.total_cmp(&parts[solid[b]].lo.x).then(a.cmp(&b)));
-    let mut found = Vec::new();
-    for (k, &a) in by_x.iter().enumerate() {
-        let end = parts[solid[a]].hi.x;
-        for &b in by_x[k + 1..].iter().take_while(|&&b| parts[solid[b]].lo.x <= end) {
-            if parts[solid[a]].boxes_meet(&parts[solid[b]], 0.0) {
-                found.push((a.max(b), a.min(b)));
-            }
-        }
-    }
-    found.sort_unstable();
-    found.into_iter().map(|(small, big)| (big, small)).collect()
+/// The larger parts whose boxes meet that of part `j`, as places in `solid`, by falling size.
+fn pairs(
+    parts: &[Part],
+    solid: &[usize],
+    tree: &Tree,
+    j: usize,
+    grain: Grain,
+    larger: &mut Vec<usize>,
+) {
+    let bounds = |k: usize| parts[solid[k]].bounds;
+    let own = bounds(j);
+    larger.clear();
+    tree.descend(
+        |node| node.bounds.meets(&own, grain.touch()),
+        |leaf| {
+            let all = leaf.iter().map(|&k| k as usize);
+            larger.extend(all.filter(|&k| k < j && bounds(k).meets(&own, grain.touch())));
+            false
+        },
+    );
+    larger.sort_unstable();
 }

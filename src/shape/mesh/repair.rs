@@ -1,13 +1,15 @@
 //! Faces that are no faces: without area, or present more than once.
 
+use super::check::Grain;
 use super::topology::{Edges, Union};
-use super::weld::Weld;
+use super::tree::Bounds;
+use super::weld;
 use crate::error::{Result, filled, reserve};
 use crate::math::Vec3;
 
-/// Height below which a face has no area, in units of the frame: the rounding of
-/// coordinates of size one, with room for a few operations.
-const FLAT: f64 = 1e-12;
+/// A weld reaches no farther than this times the median edge: a vertex far away makes
+/// the box, and the tolerance with it, larger than the faces of the body.
+const MOST_OF_EDGE: f64 = 0.25;
 
 /// The faces that are left, and what was dropped.
 #[derive(Default)]
@@ -27,31 +29,72 @@ pub struct Kept {
 }
 
 /// Welds no more than closes the surface: not at all when it is closed as it was
-/// handed in, else equal points, and points within the tolerance only when that
-/// leaves fewer edges without exactly two faces. Welding more would pinch thin
-/// parts together and join bodies that only touch.
-pub fn close(faces: &[[u32; 3]], points: &[Vec3], weld: &Weld, reach: f64) -> Result<Kept> {
+/// handed in, else equal points, and of the vertices at edges without exactly two faces
+/// those within `tolerance` times the longest edge of the box, when that leaves
+/// fewer such edges. Welding more would pinch thin parts together and join bodies
+/// that only touch.
+pub fn close(faces: &[[u32; 3]], points: &[Vec3], tolerance: f64, grain: Grain) -> Result<Kept> {
     let mut used = filled("vertex flags", points.len(), false)?;
     faces.iter().flatten().for_each(|&v| used[v as usize] = true);
-    let exact = attempt(faces, &used, &weld.exact, &weld.exact)?;
+    let equal = weld::equal(points, &used)?;
+    let exact = attempt(faces, &used, &equal, &equal)?;
     let mut best = None;
     if used.iter().filter(|&&u| u).count() < faces.len() * 2 {
-        let as_is: Vec<u32> = (0..points.len() as u32).collect();
-        let first = attempt(faces, &used, &as_is, &weld.exact)?;
+        let mut as_is = reserve("vertices", points.len())?;
+        as_is.extend(0..points.len() as u32);
+        let first = attempt(faces, &used, &as_is, &equal)?;
         // Equal points at one face, or in two faces at one place, need welding.
         let plain = first.1 == 0 && first.0.degenerate == exact.0.degenerate;
         best = (plain && first.0.duplicate == exact.0.duplicate).then_some(first);
     }
     let mut best = best.unwrap_or(exact);
-    if best.1 > 0 {
-        let near = attempt(faces, &used, &weld.near, &weld.exact)?;
-        if near.1 < best.1 {
+    let used_points = points.iter().zip(&used).filter(|p| *p.1).map(|p| p.0);
+    let reach = reach_of(&best.0.faces, points, tolerance * longest(&Bounds::of(used_points)))?;
+    if best.1 > 0 && reach > 0.0 {
+        let mut loose = filled("loose vertices", points.len(), false)?;
+        for e in Edges::of(&best.0.faces)?.iter().filter(|e| e.len() != 2) {
+            loose[(e[0].key >> 32) as usize] = true;
+            loose[e[0].key as u32 as usize] = true;
+        }
+        let root = weld::near(points, &equal, &loose, reach)?;
+        drop(loose);
+        let near = attempt(faces, &used, &root, &equal)?;
+        // An edge that goes with its face is not closed: faces that shrink to points
+        // count as open as they were.
+        let shrinks = |f: &&[u32; 3]| {
+            let one = |root: &[u32]| {
+                root[f[0] as usize] == root[f[1] as usize]
+                    && root[f[0] as usize] == root[f[2] as usize]
+            };
+            one(&root) && !one(&equal)
+        };
+        let shrunk = faces.iter().filter(shrinks).count() as u64;
+        if near.1 + 3 * shrunk < best.1 {
             best = near;
         }
     }
     let mut kept = best.0;
-    drop_flat(&mut kept, points, reach)?;
+    drop_flat(&mut kept, points, reach, grain.flat())?;
     Ok(kept)
+}
+
+fn longest(bounds: &Bounds) -> f64 {
+    (bounds.hi - bounds.lo).max().max(0.0)
+}
+
+/// How far welding reaches: `most`, but no more than a part of the median edge.
+fn reach_of(faces: &[[u32; 3]], points: &[Vec3], most: f64) -> Result<f64> {
+    let mut edges: Vec<f64> = reserve("edge lengths", faces.len() * 3)?;
+    for f in faces {
+        let [a, b, c] = f.map(|v| points[v as usize]);
+        edges.extend([b - a, c - b, a - c].map(|e| e.norm_squared()));
+    }
+    if edges.is_empty() {
+        return Ok(0.0);
+    }
+    let middle = edges.len() / 2;
+    let (_, median, _) = edges.select_nth_unstable_by(middle, f64::total_cmp);
+    Ok(most.min(MOST_OF_EDGE * median.sqrt()))
 }
 
 /// The faces by `root`, and how many of their edges do not have exactly two faces.
@@ -87,12 +130,14 @@ fn height(f: &[u32; 3], points: &[Vec3]) -> (f64, usize) {
 /// longest edge; when one other face is there, that one is cut in two at the apex,
 /// so that nothing opens. Faces lower than `reach` that only hang on to
 /// others (more of their edges are free than shared by two) are taken out, too.
-fn drop_flat(kept: &mut Kept, points: &[Vec3], reach: f64) -> Result<()> {
+/// A face lower than `no_area` has none.
+fn drop_flat(kept: &mut Kept, points: &[Vec3], reach: f64, no_area: f64) -> Result<()> {
     // Each pass cuts every face at most once; a chain of flat faces needs several.
     for _ in 0..32 {
-        let flat: Vec<u32> = (0..kept.faces.len() as u32)
-            .filter(|&i| height(&kept.faces[i as usize], points).0 <= reach.max(FLAT))
-            .collect();
+        let is_flat = |f: &[u32; 3]| height(f, points).0 <= reach.max(no_area);
+        let mut flat: Vec<u32> =
+            reserve("flat faces", kept.faces.iter().filter(|f| is_flat(f)).count())?;
+        flat.extend((0..kept.faces.len() as u32).filter(|&i| is_flat(&kept.faces[i as usize])));
         if flat.is_empty() {
             return Ok(());
         }
@@ -108,9 +153,9 @@ fn drop_flat(kept: &mut Kept, points: &[Vec3], reach: f64) -> Result<()> {
             if touched[i] {
                 continue;
             }
-            if free > pairs || h <= FLAT && count != 2 {
+            if free > pairs || h <= no_area && count != 2 {
                 gone[i] = true;
-            } else if h <= FLAT && !touched[other as usize] {
+            } else if h <= no_area && !touched[other as usize] {
                 let m = faces[i][apex];
                 let (a, b) = (faces[i][(apex + 1) % 3], faces[i][(apex + 2) % 3]);
                 let o = other as usize;
@@ -139,7 +184,7 @@ fn drop_flat(kept: &mut Kept, points: &[Vec3], reach: f64) -> Result<()> {
     }
     // What could not be healed by cutting goes.
     let before = kept.faces.len();
-    kept.faces.retain(|f| height(f, points).0 > FLAT);
+    kept.faces.retain(|f| height(f, points).0 > no_area);
     kept.degenerate += (before - kept.faces.len()) as u64;
     Ok(())
 }
@@ -200,8 +245,11 @@ fn drop_duplicates(kept: &mut Kept) -> Result<()> {
 /// Decides for each connected sheet of opposed pairs by the edges at which it meets
 /// other faces; how many faces the input had there.
 fn take_out_walls(faces: &[[u32; 3]], keep: &mut [bool], opposed: &[bool]) -> Result<u64> {
-    let kept: Vec<u32> = (0..faces.len() as u32).filter(|&i| keep[i as usize]).collect();
-    let edges = Edges::of(&kept.iter().map(|&i| faces[i as usize]).collect::<Vec<_>>())?;
+    let mut kept: Vec<u32> = reserve("faces", faces.len())?;
+    kept.extend((0..faces.len() as u32).filter(|&i| keep[i as usize]));
+    let mut once: Vec<[u32; 3]> = reserve("faces", kept.len())?;
+    once.extend(kept.iter().map(|&i| faces[i as usize]));
+    let edges = Edges::of(&once)?;
     let is = |k: u32| opposed[kept[k as usize] as usize];
     let mut union = Union::new(kept.len())?;
     for e in edges.iter() {

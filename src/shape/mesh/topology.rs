@@ -1,9 +1,8 @@
 //! What is joined to what: the edge table and the patches of a mesh.
 
-use crate::error::{Result, filled, reserve};
+use crate::error::{Result, filled, push, reserve};
 
 /// Sets that grow together; the lowest member stands for each.
-#[derive(Clone)]
 pub struct Union {
     parent: Vec<u32>,
 }
@@ -149,13 +148,16 @@ pub fn patches(faces: &[[u32; 3]], edges: &Edges) -> Result<Patches> {
     let mut here: Vec<u32> = Vec::new();
     for e in edges.iter().filter(|e| e.len() > 2) {
         here.clear();
-        here.extend(e.iter().map(|s| union.root(s.face)));
+        for s in e {
+            push("patches", &mut here, union.root(s.face))?;
+        }
         here.sort_unstable();
         for same in here.chunk_by(|a, b| a == b) {
             open[same[0] as usize] |= same.len() % 2 == 1;
         }
     }
-    let roots: Vec<u32> = (0..faces.len() as u32).map(|f| union.root(f)).collect();
+    let mut roots: Vec<u32> = reserve("patches", faces.len())?;
+    roots.extend((0..faces.len() as u32).map(|f| union.root(f)));
     for e in edges.iter().filter(|e| e.len() > 2) {
         let mut first = None;
         for r in e.iter().map(|s| roots[s.face as usize]).filter(|&r| open[r as usize]) {

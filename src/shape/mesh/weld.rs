@@ -1,26 +1,16 @@
 //! Welding: vertices nearer to each other than a tolerance become one.
 
 use super::topology::Union;
-use crate::error::{Result, filled, reserve};
+use super::tree::{Bounds, Tree};
+use crate::error::{Result, reserve};
 use crate::math::Vec3;
 
-/// The vertex that stands for each vertex: the lowest index among those it is one with.
-pub struct Weld {
-    /// Only equal points are one.
-    pub exact: Vec<u32>,
-    /// Points that are linked by steps of at most the tolerance are one.
-    pub near: Vec<u32>,
-}
-
-/// Welds the points that `faces` use, with steps of at most `tolerance` times the
-/// longest box edge. Points are in a unit frame.
+/// For each point, the lowest index of those equal to it, among the `used` ones.
 ///
 /// They are sorted along a direction to which no plane of a usual part is
-/// perpendicular, so that only neighbours in that order are compared.
-pub fn weld(points: &[Vec3], faces: &[[u32; 3]], tolerance: f64) -> Result<Weld> {
+/// perpendicular, so that the sums seldom tie.
+pub fn equal(points: &[Vec3], used: &[bool]) -> Result<Vec<u32>> {
     let along = Vec3::new(0.531_730_291, 0.637_208_347, 0.557_913_113);
-    let mut used = filled("vertex flags", points.len(), false)?;
-    faces.iter().flatten().for_each(|&v| used[v as usize] = true);
     let mut order: Vec<(f64, u32)> = reserve("welding order", points.len())?;
     order.extend((0..points.len()).filter(|&i| used[i]).map(|i| (points[i].dot(&along), i as u32)));
     let key = |i: u32| points[i as usize];
@@ -32,38 +22,33 @@ pub fn weld(points: &[Vec3], faces: &[[u32; 3]], tolerance: f64) -> Result<Weld>
             .then_with(|| p.z.total_cmp(&q.z))
             .then_with(|| a.1.cmp(&b.1))
     });
-
-    let mut union = Union::new(points.len())?;
-    // Equal points follow one another: link them, and go on with one of each.
-    let mut distinct: Vec<(f64, u32)> = reserve("distinct vertices", order.len())?;
-    for &(s, i) in &order {
-        match distinct.last() {
-            Some(&(_, j)) if key(i) == key(j) => union.join(i, j),
-            _ => distinct.push((s, i)),
-        }
+    let mut root = reserve("welded vertices", points.len())?;
+    root.extend(0..points.len() as u32);
+    for group in order.chunk_by(|a, b| key(a.1) == key(b.1)) {
+        group.iter().for_each(|g| root[g.1 as usize] = group[0].1);
     }
-    drop(order);
-    let exact = union.clone().roots();
-    let reach = tolerance * longest_edge(points, &distinct);
-    // Room for the rounding of the projection, so that no pair is missed.
-    let window = reach + 1e-15;
-    for (n, &(s, i)) in distinct.iter().enumerate() {
-        for &(_, j) in distinct[n + 1..].iter().take_while(|&&(t, _)| t - s <= window) {
-            if (key(i) - key(j)).norm_squared() <= reach * reach {
-                union.join(i, j);
-            }
-        }
-    }
-    Ok(Weld { exact, near: union.roots() })
+    Ok(root)
 }
 
-fn longest_edge(points: &[Vec3], some: &[(f64, u32)]) -> f64 {
-    let (mut lo, mut hi) = (Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN));
-    for &(_, i) in some {
-        lo = lo.inf(&points[i as usize]);
-        hi = hi.sup(&points[i as usize]);
+/// As [`equal`], whose answer is given, with those `loose` points made one, too, that are linked
+/// by steps of at most `reach`.
+pub fn near(points: &[Vec3], equal: &[u32], loose: &[bool], reach: f64) -> Result<Vec<u32>> {
+    let mut some: Vec<u32> = reserve("loose vertices", points.len())?;
+    some.extend((0..points.len() as u32).filter(|&i| loose[i as usize] && equal[i as usize] == i));
+    let place = |i: u32| points[i as usize];
+    let tree = Tree::new(some.into_iter(), |i| Bounds { lo: place(i), hi: place(i) })?;
+    let mut union = Union::new(points.len())?;
+    tree.link(
+        &mut union,
+        |p, q| tree.distance2(p, q) > reach * reach,
+        |i, j| (place(i) - place(j)).norm_squared() <= reach * reach,
+    )?;
+    let mut root = union.roots();
+    for i in 0..root.len() {
+        // Equal ones have lower indices than those that they stand for.
+        root[i] = root[equal[i] as usize];
     }
-    (hi - lo).max().max(0.0)
+    Ok(root)
 }
 
 #[cfg(test)]
@@ -102,12 +87,17 @@ mod tests {
                 .collect();
             points.push(Vec3::new(1.0, 1.0, 1.0));
             points.push(Vec3::zeros());
-            let n = points.len() as u32;
-            let faces: Vec<[u32; 3]> = (0..n).map(|i| [i, i, i]).collect();
+            let all = vec![true; points.len()];
+            let same = equal(&points, &all).unwrap();
+            prop_assert_eq!(&same, &brute(&points, 0.0));
             for reach in [0.0, 1.0 / 8192.0, 1.5 / 8192.0] {
-                let found = weld(&points, &faces, reach).unwrap();
-                prop_assert_eq!(&found.near, &brute(&points, reach));
-                prop_assert_eq!(&found.exact, &brute(&points, 0.0));
+                prop_assert_eq!(near(&points, &same, &all, reach).unwrap(), brute(&points, reach));
+            }
+            // Only loose ones move.
+            let loose: Vec<bool> = (0..points.len()).map(|i| same[i].is_multiple_of(2)).collect();
+            let found = near(&points, &same, &loose, 0.1).unwrap();
+            for i in (0..points.len()).filter(|&i| !loose[i]) {
+                prop_assert_eq!(found[i], same[i]);
             }
         }
     }
