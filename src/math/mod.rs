@@ -7,6 +7,7 @@ mod inertia;
 mod principal;
 mod sphere;
 
+pub(crate) use angle::half_solid_angle;
 pub use angle::solid_angle;
 pub use frame::UnitFrame;
 pub use inertia::{Inertia, Moments};

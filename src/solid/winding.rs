@@ -11,7 +11,7 @@
 pub use crate::math::solid_angle;
 
 use crate::error::{Error, Result, reserve};
-use crate::math::Vec3;
+use crate::math::{Vec3, half_solid_angle};
 use crate::shape::Mesh;
 use std::mem::size_of;
 
@@ -147,6 +147,28 @@ fn add<const N: usize>(sum: &mut [f64; N], term: &[f64; N], factor: f64) {
     }
 }
 
+/// The sum of the solid angles of a few faces. Half of each is the argument of a complex
+/// number; the product of these has the sum as its argument, up to turns, which are counted:
+/// one arc tangent instead of one for each face.
+fn solid_angles(faces: &[[Vec3; 3]], p: &Vec3) -> f64 {
+    let (mut re, mut im, mut turns) = (1.0, 0.0, 0.0);
+    for f in faces {
+        let (a, b) = half_solid_angle(f, p);
+        // At a corner of the face, or along a face without area, nothing is seen of it.
+        if a == 0.0 && b == 0.0 {
+            continue;
+        }
+        let product = (re * a - im * b, re * b + im * a);
+        if im >= 0.0 && b >= 0.0 && product.1 < 0.0 {
+            turns += 1.0;
+        } else if im < 0.0 && b < 0.0 && (product.1 > 0.0 || product.1 == 0.0 && product.0 < 0.0) {
+            turns -= 1.0;
+        }
+        (re, im) = product;
+    }
+    2.0 * (im.atan2(re) + 2.0 * std::f64::consts::PI * turns)
+}
+
 impl Winding {
     /// Most bytes that the tree over so many faces takes, while it is built as well. A node
     /// with more than [`LEAF`] faces has two below it, so there are fewer nodes than twice the
@@ -274,9 +296,7 @@ impl Winding {
                 at = node.skip as usize;
             } else if node.last - node.first <= LEAF as u32 {
                 let faces = self.faces.get(node.first as usize..node.last as usize);
-                for f in faces.unwrap_or(&[]) {
-                    sum += solid_angle(f, p);
-                }
+                sum += solid_angles(faces.unwrap_or(&[]), p);
                 at = node.skip as usize;
             } else {
                 at += 1;
@@ -308,4 +328,34 @@ fn split(order: &[(u64, u32)], first: usize, last: usize) -> usize {
     }
     let bit = 1u64 << (63 - (a ^ b).leading_zeros());
     first + order[first..last].partition_point(|o| o.0 & bit == 0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn one_arc_tangent_gives_the_sum(
+            numbers in prop::collection::vec(-1.0f64..1.0, 9 * LEAF),
+            all_one_way in any::<bool>(),
+            scale in prop::sample::select(vec![1.0, 1e-6, 1e-12]),
+        ) {
+            let corners: Vec<Vec3> = numbers.chunks(3).map(Vec3::from_column_slice).collect();
+            let p = Vec3::zeros();
+            let mut faces: Vec<[Vec3; 3]> =
+                corners.chunks(3).map(|c| [c[0], c[1], c[2]].map(|v| v * scale)).collect();
+            for f in &mut faces {
+                if all_one_way && solid_angle(f, &p) < 0.0 {
+                    f.swap(1, 2);
+                }
+            }
+            let sum: f64 = faces.iter().map(|f| solid_angle(f, &p)).sum();
+            prop_assert!((solid_angles(&faces, &p) - sum).abs() < 1e-9, "{}", sum);
+            // From a corner nothing is seen of the face.
+            let others: f64 = faces.iter().map(|f| solid_angle(f, &faces[0][1])).sum();
+            prop_assert!((solid_angles(&faces, &faces[0][1]) - others).abs() < 1e-9);
+        }
+    }
 }
