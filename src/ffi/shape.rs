@@ -319,7 +319,7 @@ pub(super) fn moments_struct(
 ) -> Result<morula_moments> {
     check_density(density)?;
     let input = frame.moments_to_input(unit);
-    let principal = PrincipalFrame::of(&unit.inertia);
+    let principal = PrincipalFrame::of_rounded(&unit.inertia, frame.noise());
     let to_mass = frame.scale.powi(5) * density;
     let mut rotation = [0.0; 9];
     rotation.copy_from_slice(principal.axes.as_slice());

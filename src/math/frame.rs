@@ -32,6 +32,12 @@ impl UnitFrame {
         Some(UnitFrame { offset: lo, scale })
     }
 
+    /// How far the caller's numbers may round a coordinate, as a share of the unit: far from the
+    /// origin they have fewer digits left for the shape.
+    pub fn noise(&self) -> f64 {
+        0.5 * f64::EPSILON * (self.offset.amax() / self.scale + 1.0)
+    }
+
     /// Caller's point to unit frame.
     pub fn to_unit(&self, p: &Vec3) -> Vec3 {
         (p - self.offset) / self.scale
@@ -90,6 +96,15 @@ mod tests {
             assert!(UnitFrame::of_box(Vec3::zeros(), Vec3::repeat(hi)).is_none(), "{hi}");
         }
         assert!(UnitFrame::of_box(Vec3::repeat(-f64::MAX), Vec3::repeat(f64::MAX)).is_none());
+    }
+
+    #[test]
+    fn noise_is_half_a_step_of_the_numbers() {
+        let lo = Vec3::new(3.0, -3e8, 0.0);
+        let f = UnitFrame::of_box(lo, lo + Vec3::repeat(4.0)).unwrap();
+        let step = (3e8f64.next_up() - 3e8) / 4.0;
+        assert!(f.noise() >= 0.5 * step && f.noise() <= 2.0 * step);
+        assert!(UnitFrame::of_box(Vec3::zeros(), Vec3::x()).unwrap().noise() < 1e-15);
     }
 
     #[test]

@@ -6,6 +6,9 @@ use nalgebra::Matrix3;
 const EQUAL: f64 = 1e-10;
 /// Numbers of unit size below this count as zero, and as equal, where a sign is chosen.
 const ZERO: f64 = 1e-14;
+/// How much more of itself the rounding of coordinates may be in the moments: they are of the
+/// second degree, over twice the radius.
+const FELT: f64 = 8.0;
 
 /// Principal moments and axes of an inertia tensor.
 ///
@@ -26,11 +29,18 @@ pub struct PrincipalFrame {
 }
 
 impl PrincipalFrame {
-    /// The principal frame of `inertia`.
+    /// The principal frame of `inertia`, which is exact up to rounding.
     pub fn of(inertia: &Inertia) -> Self {
+        PrincipalFrame::of_rounded(inertia, 0.0)
+    }
+
+    /// The same for a body whose coordinates are rounded by `noise` of its size (see
+    /// [`super::UnitFrame::noise`]): moments that differ by no more than such rounding explains
+    /// count as equal, and so do components of their axes.
+    pub fn of_rounded(inertia: &Inertia, noise: f64) -> Self {
         let greatest = inertia.to_array().iter().fold(0.0f64, |m, v| m.max(v.abs()));
         if !(greatest.is_finite() && greatest > 0.0) {
-            return PrincipalFrame::with_axes([0.0; 3], Matrix3::identity());
+            return PrincipalFrame::with_axes([0.0; 3], Matrix3::identity(), ZERO);
         }
         // Divided by a power of two: no bit changes, nothing under- or overflows.
         let unit = power_of_two(greatest);
@@ -38,8 +48,29 @@ impl PrincipalFrame {
         let mut order = [0, 1, 2];
         order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
         let m = order.map(|i| values[i]);
-        let axis = |i: usize| signed(vectors.column(order[i]).into_owned());
-        let near = |a: f64, b: f64| b - a <= EQUAL * m[2].abs();
+        let noise = (FELT * noise).min(1.0);
+        let near = |a: f64, b: f64| b - a <= EQUAL.max(noise) * m[2].abs();
+        // How far noise may turn an axis: its share of the gap to the next moment.
+        let gap = |i: usize| {
+            let below = if i > 0 { m[i] - m[i - 1] } else { f64::MAX };
+            let above = if i < 2 { m[i + 1] - m[i] } else { f64::MAX };
+            below.min(above)
+        };
+        let turned = |i: usize| {
+            let share = noise * m[2].abs();
+            ZERO.max(if share < gap(i) {
+                (share / gap(i)).min(0.1)
+            } else {
+                0.1 * f64::from(noise > 0.0)
+            })
+        };
+        let axis = |i: usize| signed(vectors.column(order[i]).into_owned(), turned(i));
+        let zero = match (near(m[0], m[1]), near(m[1], m[2])) {
+            (true, true) => ZERO,
+            (true, false) => turned(2),
+            (false, true) => turned(0),
+            (false, false) => turned(1),
+        };
         let axes = match (near(m[0], m[1]), near(m[1], m[2])) {
             (true, true) => Matrix3::identity(),
             (true, false) => {
@@ -57,11 +88,11 @@ impl PrincipalFrame {
                 Matrix3::from_columns(&[a, b, a.cross(&b)])
             }
         };
-        PrincipalFrame::with_axes(m.map(|v| v * unit), axes)
+        PrincipalFrame::with_axes(m.map(|v| v * unit), axes, zero)
     }
 
-    fn with_axes(moments: [f64; 3], axes: Matrix3<f64>) -> Self {
-        PrincipalFrame { moments, axes, quaternion: quaternion(&axes) }
+    fn with_axes(moments: [f64; 3], axes: Matrix3<f64>, zero: f64) -> Self {
+        PrincipalFrame { moments, axes, quaternion: quaternion(&axes, zero) }
     }
 }
 
@@ -70,12 +101,12 @@ fn power_of_two(v: f64) -> f64 {
     if v.is_normal() { f64::from_bits(v.to_bits() & 0x7ff0_0000_0000_0000) } else { 1.0 }
 }
 
-/// The axis with its largest component positive.
-fn signed(v: Vec3) -> Vec3 {
+/// The axis with its largest component positive; what differs by `zero` is as large.
+fn signed(v: Vec3, zero: f64) -> Vec3 {
     let v = v / v.norm();
     let mut largest = 0;
     for i in 1..3 {
-        if v[i].abs() > v[largest].abs() + ZERO {
+        if v[i].abs() > v[largest].abs() + zero {
             largest = i;
         }
     }
@@ -127,7 +158,7 @@ fn jacobi(mut a: Matrix3<f64>) -> ([f64; 3], Matrix3<f64>) {
 }
 
 /// The quaternion of a rotation matrix (Shepperd 1978: from the largest component).
-fn quaternion(r: &Matrix3<f64>) -> [f64; 4] {
+fn quaternion(r: &Matrix3<f64>, zero: f64) -> [f64; 4] {
     let (x, y, z) = (r[(0, 0)], r[(1, 1)], r[(2, 2)]);
     let squares = [1.0 + x + y + z, 1.0 + x - y - z, 1.0 - x + y - z, 1.0 - x - y + z];
     let mut largest = 0;
@@ -151,11 +182,11 @@ fn quaternion(r: &Matrix3<f64>) -> [f64; 4] {
     };
     let norm = q.iter().map(|c| c * c).sum::<f64>().sqrt();
     q = q.map(|c| c / norm);
-    if q[0].abs() <= ZERO {
+    if q[0].abs() <= zero {
         q[0] = 0.0;
     }
     // −0 is turned with the rest, so that equal rotations give equal bytes.
-    let first = q.iter().find(|c| c.abs() > ZERO);
+    let first = q.iter().find(|c| c.abs() > zero);
     let sign = if first.is_some_and(|c| *c < 0.0) { -1.0 } else { 1.0 };
     q.map(|c| c * sign + 0.0)
 }
@@ -224,13 +255,40 @@ mod tests {
     }
 
     #[test]
+    fn rounded_coordinates_do_not_turn_the_free_axes() {
+        let noise = 1e-8;
+        for moments in [[1.0, 3.0, 3.0], [1.0, 1.0, 3.0], [2.0, 2.0, 2.0]] {
+            let clean = PrincipalFrame::of(&Inertia::from_matrix(&diagonal(moments)));
+            for seed in 0..20 {
+                let e = |k: f64| noise * (k * 12.9898 + f64::from(seed)).sin();
+                let noisy = diagonal(moments)
+                    + Matrix3::new(e(1.), e(2.), e(3.), e(2.), e(4.), e(5.), e(3.), e(5.), e(6.));
+                let f = PrincipalFrame::of_rounded(&Inertia::from_matrix(&noisy), noise);
+                assert!((f.axes - clean.axes).abs().max() < 1e-6, "{moments:?} {}", f.axes);
+                for (q, c) in f.quaternion.iter().zip(clean.quaternion) {
+                    assert!((q - c).abs() < 1e-6, "{moments:?} {:?}", f.quaternion);
+                }
+            }
+        }
+        // An axis with two components of one size has one sign.
+        let r = rotation(0.0, 0.0, -std::f64::consts::FRAC_PI_4);
+        for seed in 0..20 {
+            let e = |k: f64| noise * (k * 12.9898 + f64::from(seed)).sin();
+            let noisy = r * diagonal([1.0, 2.0, 3.0]) * r.transpose()
+                + Matrix3::new(e(1.), e(2.), e(3.), e(2.), e(4.), e(5.), e(3.), e(5.), e(6.));
+            let f = PrincipalFrame::of_rounded(&Inertia::from_matrix(&noisy), noise);
+            assert!(f.axes[(0, 0)] > 0.5 && f.axes[(1, 0)] < -0.5, "{}", f.axes);
+        }
+    }
+
+    #[test]
     fn half_turns_have_one_quaternion() {
         // Columns (x, −y, −z), (−x, −y, z) …: w = 0.
         let f = check(&diagonal([3.0, 2.0, 1.0]), 1e-15);
         assert_eq!(f.axes, Matrix3::new(0., 0., -1., 0., 1., 0., 1., 0., 0.));
-        let q = quaternion(&Matrix3::new(-1., 0., 0., 0., -1., 0., 0., 0., 1.));
+        let q = quaternion(&Matrix3::new(-1., 0., 0., 0., -1., 0., 0., 0., 1.), ZERO);
         assert_eq!(q, [0.0, 0.0, 0.0, 1.0]);
-        let q = quaternion(&Matrix3::new(-1., 0., 0., 0., 0., -1., 0., -1., 0.));
+        let q = quaternion(&Matrix3::new(-1., 0., 0., 0., 0., -1., 0., -1., 0.), ZERO);
         assert_eq!(q[0], 0.0);
         assert!(q[1] == 0.0 && q[2] > 0.0 && q[3] < 0.0);
     }

@@ -105,7 +105,7 @@ impl Solid {
     /// The body frame: its axes, found in the unit frame so that they do not depend on the
     /// caller's unit, and the principal moments at unit density in the caller's unit.
     pub fn principal(&self) -> PrincipalFrame {
-        let unit = PrincipalFrame::of(&self.moments.inertia);
+        let unit = PrincipalFrame::of_rounded(&self.moments.inertia, self.frame.noise());
         let s5 = self.frame.scale.powi(5);
         PrincipalFrame { moments: unit.moments.map(|m| m * s5), ..unit }
     }
@@ -118,8 +118,9 @@ impl Solid {
     /// One sphere of [`Solid::to_body`]. By way of the unit frame: far from the origin it
     /// loses nothing more.
     pub(crate) fn body_frame(&self) -> impl Fn(&Sphere) -> Sphere + use<> {
-        let turn = PrincipalFrame::of(&self.moments.inertia).axes.transpose();
         let (frame, centroid) = (self.frame, self.moments.centroid);
+        let principal = PrincipalFrame::of_rounded(&self.moments.inertia, frame.noise());
+        let turn = principal.axes.transpose();
         move |s| {
             let center = turn * (frame.to_unit(&s.center) - centroid) * frame.scale;
             Sphere::new(center, s.radius)

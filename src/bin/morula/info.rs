@@ -46,7 +46,7 @@ pub fn run(args: &Args) -> Done {
     drop(bar);
     let moments = shape.frame.moments_to_input(&unit);
     // In the unit frame, as for a solid: the axes do not depend on the caller's unit.
-    let mut principal = PrincipalFrame::of(&unit.inertia);
+    let mut principal = PrincipalFrame::of_rounded(&unit.inertia, shape.frame.noise());
     principal.moments = principal.moments.map(|m| m * shape.frame.scale.powi(5));
     write::to_stdout(|out| {
         if args.json {
