@@ -165,6 +165,20 @@ fn bodies_that_cross_are_integrated_once() {
 }
 
 #[test]
+fn a_long_thin_overlap_does_not_slip_through() {
+    // Two bars that cross along an edge of each, 0.003 wide both ways.
+    let (a, b) = (([0.0; 3], [0.5, 0.5, 1.0]), ([0.497, 0.497, 0.0], [1.0; 3]));
+    let m = of(&joined(&cuboid(a.0, a.1), &cuboid(b.0, b.1)));
+    let expected = combined(&[
+        (1.0, cuboid_moments(a.0, a.1)),
+        (1.0, cuboid_moments(b.0, b.1)),
+        (-1.0, cuboid_moments([0.497, 0.497, 0.0], [0.5, 0.5, 1.0])),
+    ]);
+    assert!(m.relative_error > 0.0 && m.relative_error < 1e-3, "{}", m.relative_error);
+    agree(&m, &expected, m.relative_error);
+}
+
+#[test]
 fn spheres_that_cross_have_the_volume_of_their_union() {
     let o = ImportOptions::default();
     let sphere = Primitive::Sphere { radius: 0.25 };

@@ -68,6 +68,8 @@ pub struct Moments {
     pub centroid: Vec3,
     /// Inertia about the centroid at unit density.
     pub inertia: Inertia,
-    /// Bound on the relative error of the volume: 0 for exact integrals (up to rounding).
+    /// Estimate of the relative error, 0 for exact integrals (up to rounding): the greatest of
+    /// the volume's, the centroid's over the cube root of the volume, and the inertia's over its
+    /// greatest entry. From columns along three axes: twice how far they lie from their mean.
     pub relative_error: f64,
 }

@@ -49,9 +49,10 @@ pub struct Quality {
     pub coverage: f64,
     /// |C∖S| / |S|.
     pub overshoot: f64,
-    /// Bound on the error of D from the sampling of two axes: from four interleaved lattices of
-    /// twice the step, each part of D by itself. An estimate that held with a factor of two to
-    /// spare on lenses, boxes and ellipsoids; at 256 columns it is about 2e-4, the error 2e-5.
+    /// Estimate of the greatest error of D from the sampling of two axes, not a proven bound:
+    /// from four interleaved lattices of twice the step, each part of D by itself. It held with
+    /// a factor of two to spare on lenses, boxes and ellipsoids; at 256 columns it is about
+    /// 2e-4, the error 2e-5.
     pub error_bound: f64,
     /// Volume of the target by the same columns.
     pub target_volume: f64,
@@ -63,9 +64,10 @@ pub struct Quality {
     pub centroid_error: f64,
     /// Each principal moment of the union over the target's, less one; both by the same columns.
     pub moment_errors: [f64; 3],
-    /// How far the spheres' surfaces reach beyond the target's: found by branch and bound over
-    /// patches of the spheres against exact distances, at most 1e-4 of the box's edge or 0.1 %
-    /// below the true one, unless `distance_bound` says more.
+    /// The greatest distance from the target of any point of the clump: branch and bound over
+    /// patches of the spheres against exact distances, and over the inside of balls that may
+    /// fill a cavity or a hole. At most 1e-4 of the box's edge or 0.1 % below the true one, unless
+    /// `distance_bound` says more.
     pub protrusion: f64,
     /// RMS distance between the two surfaces, both ways, weighted by area: samples of each
     /// surface, exact distances to the other.
@@ -74,11 +76,14 @@ pub struct Quality {
     /// at most 1e-4 of the box's edge or 1 % below the true one, unless `distance_bound` says
     /// more.
     pub hausdorff: f64,
-    /// No true greatest distance exceeds `protrusion` or `hausdorff` by more than this. Larger
-    /// where the search ran into its limit of pieces, and where the target's surface can only
-    /// be sampled: very many faces, or walls inside the solid.
+    /// No true greatest distance exceeds `protrusion` or `hausdorff` by more than this: at most
+    /// 0.4 % of the equivalent diameter or 1 % of `hausdorff`, but where a search meets its last
+    /// limit of pieces, and where the target's surface can only be sampled (to about a sample's
+    /// width, an estimate): more than 131072 triangles, or walls inside the solid.
     pub distance_bound: f64,
-    /// RMS angle between the normals of clump and target at the nearest points, radians.
+    /// RMS angle between the normals of clump and target at the nearest points, radians. A voxel
+    /// target has the normals of its cells' faces: there it is the staircase that is measured,
+    /// not the shape behind it.
     pub roughness: f64,
     /// Most spheres that one plane from outside touches within δ, for each δ asked for: a lower
     /// bound, from 2048 directions and the exact tangent planes of pairs and triples near them.
