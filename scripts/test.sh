@@ -2,7 +2,8 @@
 # Everything that must hold: format, lints, docs, Rust tests (with the check
 # that the C header is current), and CTest against the installed tree.
 #   sh scripts/test.sh          the daily run, at most 12 minutes on 2 cores
-#   sh scripts/test.sh --full   with the long cases
+#   sh scripts/test.sh --full   with the long cases: bad input at the default options, and
+#                               CTest with debug assertions and with the sanitizers
 # Tests over third-party data run when MORULA_DATA names their folder.
 set -u
 cd "$(dirname "$0")/.." || exit 1
@@ -100,6 +101,14 @@ step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release \
     -DMORULA_CARGO_TARGET_DIR="$(pwd)/target"
 step "cmake build" cmake --build "$tree"
 step "ctest" ctest --test-dir "$tree" --output-on-failure
+
+if [ "$full" = yes ]; then
+    for preset in debug asan; do
+        step "configure $preset" cmake --preset "$preset"
+        step "build $preset" cmake --build --preset "$preset"
+        step "ctest $preset" ctest --preset "$preset"
+    done
+fi
 
 if cargo deny --version >/dev/null 2>&1; then
     # A word to the maintainers, never a condition.
