@@ -14,9 +14,11 @@ impl Counts {
         1.0 - 2.0 * self.inside as f64 / (self.target + self.inside + self.outside) as f64
     }
 
-    /// How much D falls with a gain, but for a factor.
+    /// How much D falls with a gain, in cells: the new inside ones less what the outside ones
+    /// cost, the more the lower D is.
     pub fn score(&self, gain: (f64, f64)) -> f64 {
-        (1.0 + self.mismatch()) * gain.0 - (1.0 - self.mismatch()) * gain.1
+        let d = self.mismatch();
+        gain.0 - gain.1 * (1.0 - d) / (1.0 + d)
     }
 
     /// The counts after a gain.

@@ -31,19 +31,23 @@ struct Candidate {
     small: bool,
 }
 
-/// An entry of the heap: a candidate and its new inside cells a sphere, less what its outside
-/// cells cost, when it was last looked at; before that, a bound from its volume. Both can
-/// but fall while the clump grows (the second nearly so: outside cells may be taken by others);
-/// when spheres move, [`Pool::renew`] makes the bounds anew.
-#[derive(Clone, Copy)]
+/// An entry of the heap: a candidate and its score a sphere when it was last looked at; before
+/// that, a bound from its volume. Both can but fall while the clump grows (the first nearly so:
+/// outside cells may be taken by others); when spheres move, [`Pool::renew`] makes them anew.
+/// Equals go by their distance from the centre of symmetry, then in the order of coming, and are
+/// not looked at when they come after the best: late in the search thousands gain as little.
+#[derive(Debug, Clone, Copy)]
 struct Entry {
-    bound: f64,
+    score: f64,
+    /// Squared distance from the centre of symmetry.
+    key: f64,
     index: usize,
 }
 
 impl Ord for Entry {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.bound.total_cmp(&other.bound).then(other.index.cmp(&self.index))
+        let order = self.score.total_cmp(&other.score).then(other.key.total_cmp(&self.key));
+        order.then(other.index.cmp(&self.index))
     }
 }
 
@@ -82,21 +86,6 @@ enum Look {
 /// An orbit that fits counts when it gains this part of what one does that must be cut.
 const FAIR: f64 = 0.25;
 
-/// The best candidate so far.
-struct Best {
-    score: f64,
-    /// Squared distance from the centre of symmetry.
-    key: f64,
-    index: usize,
-}
-
-impl Best {
-    fn before(&self, other: &Best) -> bool {
-        let order = other.score.total_cmp(&self.score).then(self.key.total_cmp(&other.key));
-        order.then(self.index.cmp(&other.index)) == Ordering::Less
-    }
-}
-
 /// Candidates evaluated together, so that threads have work.
 const TOGETHER: usize = 8;
 
@@ -118,8 +107,7 @@ impl Pool {
     /// Takes in places, and lowers the bounds of those before to the uncovered cells around them.
     pub fn add(&mut self, target: &Target, places: Vec<Place>, residue: &Residue) {
         for place in places {
-            let bound = self.bound(target, &place, place.covered);
-            self.heap.push(Entry { bound, index: self.candidates.len() });
+            self.heap.push(self.entry(target, &place, place.covered, self.candidates.len()));
             self.candidates.push(Candidate {
                 place,
                 orbit: Vec::new(),
@@ -137,26 +125,31 @@ impl Pool {
     pub fn renew(&mut self, target: &Target, residue: &Residue) {
         let places = self.candidates.iter().enumerate().filter(|(_, c)| !c.small);
         self.heap = places
-            .filter_map(|(index, c)| {
-                self.lowered(Entry { bound: self.bound(target, &c.place, 0.0), index }, residue)
-            })
+            .filter_map(|(n, c)| self.lowered(self.entry(target, &c.place, 0.0, n), residue))
             .collect();
     }
 
-    /// No fewer than the cells that a sphere at the place has outside of a ball about it.
-    fn bound(&self, target: &Target, place: &Place, covered: f64) -> f64 {
+    /// An entry with no less than the cells that a sphere at the place has outside of a ball
+    /// about it.
+    fn entry(&self, target: &Target, place: &Place, covered: f64, index: usize) -> Entry {
         let [a, b, c] = target.lattice.step;
         let r = (place.deep + self.rules.offset).max(0.0);
         let shell = (r.powi(3) - covered.min(r).powi(3)).max(0.0);
-        4.0 / 3.0 * std::f64::consts::PI * shell / (a * b * c) + 1.0
+        let mut center = place.center;
+        target.mirrors.snap(&mut center);
+        Entry {
+            score: 4.0 / 3.0 * std::f64::consts::PI * shell / (a * b * c) + 1.0,
+            key: target.mirrors.off_centre(&center),
+            index,
+        }
     }
 
     /// The entry with no more than the uncovered cells around its place; none without any.
     fn lowered(&self, entry: Entry, residue: &Residue) -> Option<Entry> {
         let place = &self.candidates.get(entry.index)?.place;
         let radius = (place.deep + self.rules.offset).max(0.0);
-        let bound = entry.bound.min(residue.bound(&Ball { center: place.center, radius }));
-        (bound > 0.0).then_some(Entry { bound, ..entry })
+        let score = entry.score.min(residue.bound(&Ball { center: place.center, radius }));
+        (score > 0.0).then_some(Entry { score, ..entry })
     }
 
     /// Whether a place that was refused for its radius would bring D down.
@@ -188,10 +181,8 @@ impl Pool {
         room: usize,
         run: &Run,
     ) -> Option<Choice> {
-        let mismatch = counts.mismatch();
-        let score = |gain| counts.score(gain);
-        let mut best: Option<Best> = None;
-        let mut cut: Option<Best> = None;
+        let mut best: Option<Entry> = None;
+        let mut cut: Option<Entry> = None;
         let mut looked: Vec<Entry> = Vec::new();
         let mut interrupted = false;
         for round in 1.. {
@@ -200,11 +191,10 @@ impl Pool {
                 break;
             }
             let mut batch = Vec::new();
-            let score_of = |b: &Option<Best>| b.as_ref().map_or(0.0, |b| b.score);
-            let least = score_of(&best).max(FAIR * score_of(&cut));
+            let least = cut.map_or(0.0, |c| FAIR * c.score);
             while batch.len() < TOGETHER {
                 match self.heap.peek() {
-                    Some(top) if top.bound * (1.0 + mismatch) >= least => {
+                    Some(top) if top.score >= least && best.is_none_or(|b| *top > b) => {
                         batch.extend(self.heap.pop());
                     }
                     _ => break,
@@ -229,20 +219,16 @@ impl Pool {
                         }
                     }
                     Look::Good { orbit, gain } => {
-                        let index = entry.index;
-                        let s = score(gain);
-                        let key =
-                            orbit.first().map_or(0.0, |b| target.mirrors.off_centre(&b.center));
-                        let next = Best { score: s, key, index };
+                        let next = Entry { score: counts.score(gain), ..entry };
                         let of = if orbit.len() > room { &mut cut } else { &mut best };
-                        if s > 0.0 && of.as_ref().is_none_or(|b| next.before(b)) {
+                        if next.score > 0.0 && of.is_none_or(|b| next > b) {
                             *of = Some(next);
                         }
-                        if let Some(c) = self.candidates.get_mut(index) {
+                        if let Some(c) = self.candidates.get_mut(entry.index) {
                             c.orbit = orbit;
                             c.tried = true;
                         }
-                        looked.push(Entry { bound: s.max(0.0) / (1.0 + mismatch), index });
+                        looked.push(Entry { score: next.score.max(0.0), ..entry });
                     }
                 }
             }
@@ -253,27 +239,22 @@ impl Pool {
             (b, _) => b,
         };
         let best = if interrupted { None } else { best };
-        let winner = best.as_ref().map(|b| b.index);
-        let mut taken = None;
-        for entry in looked {
-            if Some(entry.index) == winner {
-                taken = Some(entry);
-            } else {
-                self.heap.push(entry);
-            }
-        }
-        let Best { score: value, index, .. } = best?;
-        let candidate = self.candidates.get(index)?;
-        let mut choice = Choice { orbit: candidate.orbit.clone(), score: value, entry: taken? };
+        let winner = best.map(|b| b.index);
+        self.heap.extend(looked.into_iter().filter(|entry| Some(entry.index) != winner));
+        let entry = best?;
+        let candidate = self.candidates.get(entry.index)?;
+        let mut orbit = candidate.orbit.clone();
+        let mut score = entry.score;
         if candidate.place.peak {
             let center = refined(target, &candidate.place.center);
-            if let Look::Good { orbit, gain } = self.consider(target, covered, chosen, &center)
-                && score(gain) >= value
+            if let Look::Good { orbit: other, gain } =
+                self.consider(target, covered, chosen, &center)
+                && counts.score(gain) >= score
             {
-                (choice.orbit, choice.score) = (orbit, score(gain));
+                (orbit, score) = (other, counts.score(gain));
             }
         }
-        Some(choice)
+        Some(Choice { orbit, score: score * (1.0 + counts.mismatch()), entry })
     }
 
     /// The orbit about a point and its new cells a sphere, when the rules allow it.
