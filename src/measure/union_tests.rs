@@ -135,7 +135,9 @@ fn many_spheres_as_by_the_plain_definition() {
         let r = 0.01 + 0.06 * (t * 0.29).fract();
         spheres.push(Sphere::new(Vec3::repeat(0.5) + direction(k as usize, 600) * depth, r));
     }
-    spheres.push(spheres[5]);
+    let out = |s: &&Sphere| (s.center - spheres[0].center).norm() + s.radius > 0.41;
+    let twin = *spheres.iter().find(out).unwrap();
+    spheres.push(twin);
     let union = Union::new(&spheres, u64::MAX, &Run::serial()).unwrap();
     let n = spheres.len();
     for i in 0..n {
