@@ -3,6 +3,7 @@
 
 mod faults;
 mod files;
+mod unusual;
 
 use files::*;
 use morula::shape::read::{FileOptions, Format};
@@ -34,6 +35,7 @@ fn fails(bytes: &[u8], name: &str, status: i32, words: &str) {
     }
 }
 
+const NOT_FINITE: i32 = 3;
 const INDEX: i32 = 4;
 const EMPTY: i32 = 5;
 const FORMAT: i32 = 9;

@@ -162,6 +162,29 @@ fn the_meaning_of_values() {
 }
 
 #[test]
+fn the_file_its_values_and_the_cells_count_together() {
+    let raw = ([10, 10, 10], RawType::U16, 0);
+    let path = std::env::temp_dir().join(format!("morula-held-{}.raw", std::process::id()));
+    std::fs::write(&path, vec![1u8; 2000]).unwrap();
+    let with = |limit: u64| {
+        let mut options = FileOptions { raw: Some(raw), ..options() };
+        options.import.memory_limit = limit;
+        Shape::from_file(&path, &options, &Run::serial())
+    };
+    // Each of them alone would fit.
+    let file = with(3000).unwrap_err();
+    // The values, a mask and the crop, with the runs of the bodies.
+    let cells = with(4100).unwrap_err();
+    let enough = with(8000);
+    std::fs::remove_file(&path).unwrap();
+    let words = "1000 voxels need 2000 bytes beside the 2000 of the file, the limit is 3000";
+    assert!(matches!(&file, Error::MemoryLimit(s) if s == words), "{file}");
+    let words = "beside the 3000 as read, the limit is 4100";
+    assert!(matches!(&cells, Error::MemoryLimit(s) if s.contains(words)), "{cells}");
+    enough.unwrap();
+}
+
+#[test]
 fn labels_of_a_file_are_listed() {
     let folder = std::env::temp_dir().join(format!("morula-labels-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();

@@ -55,8 +55,9 @@ impl Grain {
     }
 }
 
-/// There are faces, no more than can be indexed, and memory for them.
-pub fn counts(vertices: usize, faces: usize, options: &ImportOptions) -> Result<()> {
+/// There are faces, no more than can be indexed, and memory for them beside the `held` bytes
+/// of a file.
+pub fn counts(vertices: usize, faces: usize, held: u64, options: &ImportOptions) -> Result<()> {
     if faces == 0 {
         return Err(Error::Empty(format!("the mesh has {vertices} vertices but no faces")));
     }
@@ -69,9 +70,11 @@ pub fn counts(vertices: usize, faces: usize, options: &ImportOptions) -> Result<
     // While welding: points, unit points, sorting keys. Later: edges, neighbours, parts.
     let (v, f) = (vertices as u64, faces as u64);
     let bytes = u64::max(v * 100 + f * 24, v * 60 + f * 170);
-    if bytes > options.memory_limit {
+    if bytes.saturating_add(held) > options.memory_limit {
+        let beside = if held > 0 { format!(" beside the {held} as read") } else { String::new() };
         return Err(Error::MemoryLimit(format!(
-            "{vertices} vertices and {faces} faces need about {bytes} bytes, the limit is {}",
+            "{vertices} vertices and {faces} faces need about {bytes} bytes{beside}, the limit \
+             is {}",
             options.memory_limit
         )));
     }

@@ -80,7 +80,18 @@ impl Shape {
         options: &ImportOptions,
         run: &Run,
     ) -> Result<Shape> {
-        run.time(Stage::Check, || import(vertices, faces, options, run))
+        Shape::from_read_mesh(vertices, faces, options, 0, run)
+    }
+
+    /// As [`Shape::from_mesh`], of arrays that a reader holds: `held` bytes of the limit.
+    pub(crate) fn from_read_mesh(
+        vertices: &[[f64; 3]],
+        faces: &[[u32; 3]],
+        options: &ImportOptions,
+        held: u64,
+        run: &Run,
+    ) -> Result<Shape> {
+        run.time(Stage::Check, || import(vertices, faces, options, held, run))
     }
 }
 
@@ -88,10 +99,11 @@ fn import(
     vertices: &[[f64; 3]],
     faces: &[[u32; 3]],
     options: &ImportOptions,
+    held: u64,
     run: &Run,
 ) -> Result<Shape> {
     check::options(options)?;
-    check::counts(vertices.len(), faces.len(), options)?;
+    check::counts(vertices.len(), faces.len(), held, options)?;
     run.check(0.0, "checking the mesh")?;
     let points = check::scaled(vertices, options.length_unit)?;
     check::indices(faces, points.len())?;

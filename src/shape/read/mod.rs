@@ -9,6 +9,7 @@ mod off;
 mod ply;
 mod polygon;
 mod raw;
+mod reading;
 mod stl;
 mod text;
 mod tiff;
@@ -18,6 +19,7 @@ use super::voxels::{LabelInfo, Threshold, list_labels};
 use super::{ImportOptions, Layout, Shape};
 use crate::error::{Error, Result, reserve};
 use crate::run::{Run, Stage};
+use reading::Reading;
 use std::io::Read;
 use std::path::Path;
 
@@ -129,6 +131,28 @@ pub enum RawValues {
     F32(Vec<f32>),
 }
 
+impl RawValues {
+    /// How many there are.
+    fn len(&self) -> usize {
+        match self {
+            RawValues::U8(v) => v.len(),
+            RawValues::U16(v) => v.len(),
+            RawValues::U32(v) => v.len(),
+            RawValues::F32(v) => v.len(),
+        }
+    }
+
+    /// What they take.
+    fn bytes(&self) -> u64 {
+        let each = match self {
+            RawValues::U8(_) => 1,
+            RawValues::U16(_) => 2,
+            RawValues::U32(_) | RawValues::F32(_) => 4,
+        };
+        each * self.len() as u64
+    }
+}
+
 /// What a file holds.
 enum Raw {
     Mesh(RawMesh),
@@ -137,34 +161,53 @@ enum Raw {
 
 impl Shape {
     /// A shape from the bytes of a file; `name` helps where content does not tell.
+    ///
+    /// The memory limit holds for all arrays that are there at one time.
     pub fn from_bytes(bytes: &[u8], name: &str, options: &FileOptions, run: &Run) -> Result<Shape> {
-        let raw = run.time(Stage::Read, || read(bytes, name, options))?;
-        match raw {
-            Raw::Mesh(m) => Shape::from_mesh(&m.vertices, &m.faces, &options.import, run),
-            Raw::Voxels(v) => voxels::shape(v, options, run),
-        }
+        let raw = run.time(Stage::Read, || read(bytes, name, options, 0, run))?;
+        shape(raw, options, run)
     }
 
-    /// A shape from a file.
+    /// A shape from a file. The file itself counts towards the memory limit.
     pub fn from_file(path: &Path, options: &FileOptions, run: &Run) -> Result<Shape> {
-        let bytes = run.time(Stage::Read, || load(path, options.import.memory_limit))?;
-        let name = path.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
-        Shape::from_bytes(&bytes, &name, options, run)
+        let raw = run.time(Stage::Read, || {
+            let bytes = load(path, options.import.memory_limit, run)?;
+            read(&bytes, &name_of(path), options, bytes.len() as u64, run)
+        })?;
+        shape(raw, options, run)
     }
+}
+
+fn shape(raw: Raw, options: &FileOptions, run: &Run) -> Result<Shape> {
+    match raw {
+        Raw::Mesh(m) => {
+            Shape::from_read_mesh(&m.vertices, &m.faces, &options.import, m.bytes(), run)
+        }
+        Raw::Voxels(v) => voxels::shape(v, options, run),
+    }
+}
+
+fn name_of(path: &Path) -> std::borrow::Cow<'_, str> {
+    path.file_name().map(|n| n.to_string_lossy()).unwrap_or_default()
 }
 
 /// The labels of a label volume in a file, ascending, without 0; [`Meaning::Label`]
 /// takes one of them.
 pub fn file_labels(path: &Path, options: &FileOptions) -> Result<Vec<LabelInfo>> {
-    let bytes = load(path, options.import.memory_limit)?;
-    let name = path.file_name().map(|n| n.to_string_lossy()).unwrap_or_default();
-    match read(&bytes, &name, options)? {
+    let run = Run::serial();
+    let name = name_of(path);
+    let raw = {
+        let bytes = load(path, options.import.memory_limit, &run)?;
+        read(&bytes, &name, options, bytes.len() as u64, &run)?
+    };
+    match raw {
         Raw::Voxels(v) => list_labels(&voxels::as_labels(v.values)?, &v.layout),
         Raw::Mesh(_) => Err(Error::InvalidArgument(format!("{name} is a mesh: it has no labels"))),
     }
 }
 
-fn read(bytes: &[u8], name: &str, options: &FileOptions) -> Result<Raw> {
+/// Reads; `held`: bytes of the limit that are taken already.
+fn read(bytes: &[u8], name: &str, options: &FileOptions, held: u64, run: &Run) -> Result<Raw> {
     let format = match options.format {
         Some(format) => format,
         None => detect::format(bytes, name, options.raw.is_some())?,
@@ -172,19 +215,23 @@ fn read(bytes: &[u8], name: &str, options: &FileOptions) -> Result<Raw> {
     if bytes.is_empty() {
         return Err(detect::empty(name));
     }
+    let reading = Reading { run, limit: options.import.memory_limit, held };
     match format {
-        Format::Stl => stl::read(bytes).map(Raw::Mesh),
-        Format::Obj => obj::read(bytes).map(Raw::Mesh),
-        Format::Ply => ply::read(bytes).map(Raw::Mesh),
-        Format::Off => off::read(bytes).map(Raw::Mesh),
+        Format::Stl => stl::read(bytes, &reading).map(Raw::Mesh),
+        Format::Obj => obj::read(bytes, &reading).map(Raw::Mesh),
+        Format::Ply => ply::read(bytes, &reading).map(Raw::Mesh),
+        Format::Off => off::read(bytes, &reading).map(Raw::Mesh),
         Format::Npy | Format::Tiff | Format::Raw => {
-            voxels::read(bytes, format, options).map(Raw::Voxels)
+            voxels::read(bytes, format, options, &reading).map(Raw::Voxels)
         }
     }
 }
 
+/// Bytes that are read between two questions whether to go on.
+const PIECE: u64 = 1 << 24;
+
 /// The bytes of a file no larger than `limit`.
-fn load(path: &Path, limit: u64) -> Result<Vec<u8>> {
+fn load(path: &Path, limit: u64, run: &Run) -> Result<Vec<u8>> {
     let fail = |e: std::io::Error| Error::Io(format!("{} cannot be read: {e}", path.display()));
     let file = std::fs::File::open(path).map_err(fail)?;
     let size = file.metadata().map_err(fail)?.len();
@@ -199,9 +246,15 @@ fn load(path: &Path, limit: u64) -> Result<Vec<u8>> {
     }
     let mut bytes = reserve("the file", usize::try_from(size).unwrap_or(usize::MAX))?;
     // What is not a plain file may hold more than it says.
-    file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(fail)?;
-    if bytes.len() as u64 > limit {
-        return refuse(format!("more than {limit}"));
+    loop {
+        run.check(0.0, "reading the file")?;
+        let most = (limit.saturating_add(1) - bytes.len() as u64).min(PIECE);
+        let got = (&file).take(most).read_to_end(&mut bytes).map_err(fail)?;
+        if bytes.len() as u64 > limit {
+            return refuse(format!("more than {limit}"));
+        }
+        if got == 0 {
+            return Ok(bytes);
+        }
     }
-    Ok(bytes)
 }

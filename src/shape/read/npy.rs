@@ -2,13 +2,13 @@
 //! (numpy.org/doc/stable/reference/generated/numpy.lib.format.html).
 
 use super::numbers::Numbers;
-use super::{FileOptions, RawVoxels};
+use super::{FileOptions, RawVoxels, Reading};
 use crate::error::{Error, Result, filled};
 use crate::shape::Layout;
 
 /// The voxels of an npy file. An array of shape (a, b, c) is taken as (z, y, x),
 /// or as (x, y, z) when `npy_xyz` says so.
-pub(super) fn read(bytes: &[u8], options: &FileOptions) -> Result<RawVoxels> {
+pub(super) fn read(bytes: &[u8], options: &FileOptions, reading: &Reading) -> Result<RawVoxels> {
     let header = Header::parse(bytes)?;
     let [a, b, c] = <[usize; 3]>::try_from(header.shape.as_slice()).map_err(|_| {
         Error::Unsupported(format!("the npy array has {} axes, voxels need 3", header.shape.len()))
@@ -37,7 +37,7 @@ pub(super) fn read(bytes: &[u8], options: &FileOptions) -> Result<RawVoxels> {
     super::voxels::limit(
         count,
         if header.is_plain() { header.size } else { header.size + 4 },
-        options,
+        reading,
     )?;
     let data = bytes.get(header.data..).unwrap_or_default();
     let order = Order { dims, transposed };

@@ -1,9 +1,9 @@
-//! OFF: the word OFF (with any of ST, C, N before it), counts, vertices, faces.
-//! Numbers may stand anywhere between white space, as long as what follows a
-//! face (its colour) stays on its line; `#` begins a comment.
+//! OFF: the word OFF (with any of ST, C, N before it), counts, vertices, faces;
+//! `#` begins a comment. Each vertex and each face may have its line, with its colour at
+//! the end; or the numbers stand anywhere between white space, without colours.
 
-use super::{RawMesh, polygon, text};
-use crate::error::{Error, Result};
+use super::{RawMesh, Reading, polygon, text};
+use crate::error::{Error, Result, push};
 
 /// How many numbers each vertex has after x, y, z, when `word` is the magic word
 /// of a variant that is read; `None` when it is not one.
@@ -17,9 +17,25 @@ pub fn magic(word: &[u8]) -> Option<usize> {
     }
 }
 
+/// How the numbers lie in the lines.
+#[derive(Clone, Copy, PartialEq)]
+enum Lines {
+    /// A line for each vertex and each face; the rest of it is a colour.
+    Own,
+    /// Anywhere, and there are no others; the number of edges, often missing, is there.
+    FreeWithEdges,
+    /// … or is not.
+    Free,
+    /// A vertex or face may go on in the next line; what follows it on its last is a colour.
+    Over,
+}
+
 /// The words of a file with their lines, without comments.
+#[derive(Clone)]
 struct Words<'a> {
     bytes: &'a [u8],
+    /// The byte that ends lines.
+    end: u8,
     at: usize,
     line: usize,
 }
@@ -29,8 +45,8 @@ impl<'a> Words<'a> {
     fn next(&mut self, here: bool) -> Option<&'a [u8]> {
         loop {
             match self.bytes.get(self.at)? {
-                b'\n' if here => return None,
-                b'\n' => {
+                b if *b == self.end && here => return None,
+                b if *b == self.end => {
                     self.line += 1;
                     self.at += 1;
                 }
@@ -48,29 +64,33 @@ impl<'a> Words<'a> {
 
     fn skip_line(&mut self) {
         let rest = &self.bytes[self.at..];
-        self.at += rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+        self.at += rest.iter().position(|&b| b == self.end).unwrap_or(rest.len());
     }
 
-    fn number<T: std::str::FromStr>(&mut self, what: &str) -> Result<T> {
-        let word = self.next(false);
+    /// A number, on this line only when `here`.
+    fn number<T: std::str::FromStr>(&mut self, here: bool, what: &str) -> Result<T> {
+        let word = self.next(here);
         if word.is_none() {
-            return Err(text::fault(self.line, &format!("the OFF file ends before {what}")));
+            return Err(self.ends_before(what));
         }
         text::number(word, self.line, what)
+    }
+
+    fn ends_before(&self, what: &str) -> Error {
+        text::fault(self.line, &format!("the OFF file ends before {what}"))
     }
 }
 
 /// Reads OFF, COFF, NOFF, CNOFF and their ST forms.
-pub fn read(bytes: &[u8]) -> Result<RawMesh> {
+pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<RawMesh> {
     if let Some(order) = text::utf16(bytes) {
         return Err(Error::Format(format!("the OFF file is {order} text: save it as ASCII")));
     }
-    let mut words = Words { bytes: text::without_bom(bytes), at: 0, line: 1 };
+    let bytes = text::without_bom(bytes);
+    let mut words = Words { bytes, end: text::line_end(bytes), at: 0, line: 1 };
     let extra = first_word(&mut words)?;
-    let n: u64 = words.number("the number of vertices")?;
-    let m: u64 = words.number("the number of faces")?;
-    // The number of edges is often missing; nothing depends on it.
-    words.skip_line();
+    let n: u64 = words.number(false, "the number of vertices")?;
+    let m: u64 = words.number(false, "the number of faces")?;
     let left = (words.bytes.len() - words.at) as u64;
     // Each number takes at least a character and a space, but for the last.
     let least = n.saturating_mul(2 * (3 + extra as u64)).saturating_add(m.saturating_mul(2));
@@ -83,37 +103,74 @@ pub fn read(bytes: &[u8]) -> Result<RawMesh> {
             ),
         ));
     }
-    let mut mesh = RawMesh::default();
+    let counts = [n, m, extra as u64];
+    for lines in [Lines::Own, Lines::FreeWithEdges, Lines::Free] {
+        match elements(words.clone(), counts, lines, reading) {
+            Err(Error::Format(_) | Error::IndexOutOfRange(_) | Error::NotFinite(_)) => {}
+            done => return done,
+        }
+    }
+    elements(words, counts, Lines::Over, reading)
+}
+
+/// The vertices and faces after the counts.
+fn elements(
+    mut words: Words,
+    [n, m, extra]: [u64; 3],
+    lines: Lines,
+    reading: &Reading,
+) -> Result<RawMesh> {
+    let free = matches!(lines, Lines::FreeWithEdges | Lines::Free);
+    let here = lines == Lines::Own;
+    if lines == Lines::FreeWithEdges {
+        words.number::<f64>(false, "the number of edges")?;
+    } else if !free {
+        words.skip_line();
+    }
+    let mut mesh = reading.mesh(n as usize, m as usize)?;
     for i in 0..n {
+        reading.tick(i as usize, &mesh)?;
         let mut v = [0.0; 3];
-        for (x, axis) in v.iter_mut().zip(["x", "y", "z"]) {
-            *x = words.number(&format!("{axis} of vertex {i}"))?;
+        for (k, (x, axis)) in v.iter_mut().zip(["x", "y", "z"]).enumerate() {
+            let word = words.next(here && k > 0);
+            let what = format!("{axis} of vertex {i}");
+            if word.is_none() {
+                return Err(words.ends_before(&what));
+            }
+            *x = text::coordinate(word, words.line, &what)?;
         }
         for _ in 0..extra {
-            words.number::<f64>(&format!("the normal or texture of vertex {i}"))?;
+            words.number::<f64>(here, &format!("the normal or texture of vertex {i}"))?;
         }
-        // A colour of the vertex.
-        words.skip_line();
-        mesh.vertices.push(v);
+        if !free {
+            words.skip_line();
+        }
+        push("vertices", &mut mesh.vertices, v)?;
     }
     let mut corners: Vec<u32> = Vec::new();
     for i in 0..m {
-        let k: u64 = words.number(&format!("the number of corners of face {i}"))?;
+        reading.tick(i as usize, &mesh)?;
+        let k: u64 = words.number(false, &format!("the number of corners of face {i}"))?;
         corners.clear();
         for j in 0..k {
-            let c: i64 = words.number(&format!("corner {j} of face {i}"))?;
+            let c: i64 = words.number(here, &format!("corner {j} of face {i}"))?;
             if c < 0 || c as u64 >= n {
                 return Err(Error::IndexOutOfRange(format!(
                     "line {}: face {i} names vertex {c}, but there are only {n} vertices",
                     words.line
                 )));
             }
-            corners.push(c as u32);
+            push("corners", &mut corners, c as u32)?;
         }
-        words.skip_line();
-        polygon::triangulate(&corners, &mesh.vertices, &mut mesh.faces);
+        if !free {
+            words.skip_line();
+        }
+        polygon::triangulate(&corners, &mesh.vertices, &mut mesh.faces)?;
     }
-    Ok(mesh)
+    match free.then(|| words.next(false)).flatten() {
+        Some(_) => Err(text::fault(words.line, "there are numbers after the last face")),
+        None => Ok(mesh),
+    }
 }
 
 /// The magic word; the counts may follow it without a space.

@@ -1,52 +1,143 @@
 //! PLY, through `ply-rs-bw`: ascii, little- and big-endian; any properties
-//! beside x, y, z and the faces' `vertex_indices` are passed over.
+//! beside x, y, z and the faces' `vertex_indices` are passed over. Elements may come in
+//! any order. It is handed one element at a time, so that memory and cancel are ours.
 
-use super::{RawMesh, polygon, text};
-use crate::error::{Error, Result};
+use super::{RawMesh, Reading, polygon, text};
+use crate::error::{Error, Result, push};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
     ScalarType,
 };
-use std::io::Read;
 
 /// Reads PLY.
-pub fn read(bytes: &[u8]) -> Result<RawMesh> {
+pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<RawMesh> {
     let bytes = text::without_bom(bytes);
     // Comments may hold any bytes, but the reader takes text only.
     let end = header_end(bytes)?;
     let head = String::from_utf8_lossy(&bytes[..end]).into_owned();
     let payload = &bytes[end..];
     let parser = Parser::<Element>::new();
-    let mut reader = Reader::new(std::io::BufReader::new(head.as_bytes().chain(payload)));
-    let header = parser.read_header(&mut reader).map_err(fault)?;
+    let header = parser.read_header(&mut Reader::new(head.as_bytes())).map_err(fault)?;
     check_counts(&header, payload.len())?;
 
-    let mut mesh = RawMesh::default();
+    let count = |name| header.elements.get(name).map_or(0, |e| e.count);
+    let mut mesh = reading.mesh(count("vertex"), count("face"))?;
+    let vertices = count("vertex");
+    // Faces that come before the vertices wait: their corners, and how many each has.
+    let mut early: (Vec<u32>, Vec<u32>) = Default::default();
+    let mut corners: Vec<u32> = Vec::new();
+    let before = head.bytes().filter(|&b| b == b'\n').count();
+    let mut source = Payload { parser, encoding: header.encoding, rest: payload, line: before };
     for (name, element) in &header.elements {
-        let found =
-            parser.read_payload_for_element(&mut reader, element, &header).map_err(fault)?;
-        match name.as_str() {
-            "vertex" => mesh.vertices = found.iter().map(|e| e.point).collect(),
-            "face" => faces(&found, &mut mesh)?,
-            _ => {}
+        for i in 0..element.count {
+            reading.tick(i, &mesh)?;
+            let found = source.next(element, i)?;
+            match name.as_str() {
+                "vertex" => push("vertices", &mut mesh.vertices, found.point)?,
+                "face" => {
+                    corners.clear();
+                    for &c in &found.corners {
+                        if c < 0 || c >= vertices as i64 {
+                            return Err(Error::IndexOutOfRange(format!(
+                                "PLY face {i} names vertex {c}, but there are only {vertices} \
+                                 vertices"
+                            )));
+                        }
+                        push("corners", &mut corners, c as u32)?;
+                    }
+                    if mesh.vertices.len() == vertices {
+                        polygon::triangulate(&corners, &mesh.vertices, &mut mesh.faces)?;
+                    } else {
+                        for &c in &corners {
+                            push("corners", &mut early.0, c)?;
+                        }
+                        push("faces", &mut early.1, corners.len() as u32)?;
+                        let bytes = 4 * (early.0.capacity() + early.1.capacity()) as u64;
+                        reading.tick_with(i, bytes + mesh.bytes(), "the faces of the PLY file")?;
+                    }
+                }
+                _ => {}
+            }
         }
+    }
+    let mut rest = early.0.as_slice();
+    for (i, &n) in early.1.iter().enumerate() {
+        reading.tick(i, &mesh)?;
+        let Some((face, tail)) = rest.split_at_checked(n as usize) else { break };
+        polygon::triangulate(face, &mesh.vertices, &mut mesh.faces)?;
+        rest = tail;
     }
     Ok(mesh)
 }
 
-fn fault(e: ParseError) -> Error {
-    // The message of the library has several lines, of which the first says enough.
-    let text = e.to_string();
-    let mut said: String = text.lines().next().unwrap_or_default().chars().take(200).collect();
-    if let Some(why) = text.lines().rev().find_map(|l| l.trim().strip_prefix("Error: ")) {
-        said = format!(
-            "{} ({})",
-            said.trim_end_matches('.'),
-            why.chars().take(200).collect::<String>()
-        );
+/// The bytes after the header.
+struct Payload<'a> {
+    parser: Parser<Element>,
+    encoding: Encoding,
+    rest: &'a [u8],
+    /// Lines that were taken, of an ascii file.
+    line: usize,
+}
+
+impl Payload<'_> {
+    /// Element number `i` of its kind. Blank lines are passed over.
+    fn next(&mut self, of: &ElementDef, i: usize) -> Result<Element> {
+        let broken = |at: String, e: ParseError| {
+            let why = first_line(&e);
+            Error::Format(format!(
+                "the PLY file is broken: {at}element {i} of {} {}: {why}",
+                of.count, of.name
+            ))
+        };
+        match self.encoding {
+            Encoding::Ascii => loop {
+                if self.rest.is_empty() {
+                    return Err(Error::Format(format!(
+                        "the PLY file is broken: Line {}: end of file before element {i} of {} {}",
+                        self.line, of.count, of.name
+                    )));
+                }
+                let end = self.rest.iter().position(|&b| b == b'\n').unwrap_or(self.rest.len());
+                let line = self.rest[..end].trim_ascii();
+                self.rest = self.rest.get(end + 1..).unwrap_or_default();
+                self.line += 1;
+                if !line.is_empty() {
+                    let line = String::from_utf8_lossy(line);
+                    let found = self.parser.read_ascii_element(&line, of);
+                    return found.map_err(|e| broken(format!("Line {}: ", self.line), e));
+                }
+            },
+            Encoding::BinaryBigEndian => self.parser.read_big_endian_element(&mut self.rest, of),
+            Encoding::BinaryLittleEndian => {
+                self.parser.read_little_endian_element(&mut self.rest, of)
+            }
+        }
+        .map_err(|e| match self.rest.is_empty() {
+            true => Error::Format(format!(
+                "the PLY file is broken: end of file in element {i} of {} {}",
+                of.count, of.name
+            )),
+            false => broken(String::new(), e),
+        })
     }
-    Error::Format(format!("the PLY file is broken: {said}"))
+}
+
+/// The first line of a message of the library says enough, but for the reason at its end.
+fn first_line(e: &ParseError) -> String {
+    let text = e.to_string();
+    let said: String = text.lines().next().unwrap_or_default().chars().take(200).collect();
+    match text.lines().rev().find_map(|l| l.trim().strip_prefix("Error: ")) {
+        Some(why) => {
+            let why: String = why.chars().take(200).collect();
+            format!("{} ({why})", said.trim_end_matches('.'))
+        }
+        None => said,
+    }
+}
+
+fn fault(e: ParseError) -> Error {
+    Error::Format(format!("the PLY file is broken: {}", first_line(&e)))
 }
 
 /// Where the payload begins.
@@ -127,24 +218,6 @@ fn check_properties(header: &Header) -> Result<()> {
 }
 
 const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
-
-fn faces(found: &[Element], mesh: &mut RawMesh) -> Result<()> {
-    let n = mesh.vertices.len();
-    let mut corners: Vec<u32> = Vec::new();
-    for (i, e) in found.iter().enumerate() {
-        corners.clear();
-        for &c in &e.corners {
-            if c < 0 || c >= n as i64 {
-                return Err(Error::IndexOutOfRange(format!(
-                    "PLY face {i} names vertex {c}, but there are only {n} vertices"
-                )));
-            }
-            corners.push(c as u32);
-        }
-        polygon::triangulate(&corners, &mesh.vertices, &mut mesh.faces);
-    }
-    Ok(())
-}
 
 /// A vertex or a face.
 #[derive(Debug, Default)]

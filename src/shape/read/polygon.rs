@@ -1,67 +1,174 @@
 //! Polygons cut into triangles.
 
+use crate::error::{Result, filled, push, reserve};
 use crate::math::Vec3;
 
 /// More corners than this are cut as a fan: a fan of a polygon that is not convex
 /// folds over itself, but its boundary and its signed volume are right.
 const MOST_EARS: usize = 2048;
 
+/// A corner turns left when the triangle there has more than this area, in units of the size.
+const LEFT: f64 = 1e-14;
+
 /// Cuts the polygon with the given corners into triangles: ears in the polygon's
 /// mean plane (Newell's normal), which for a convex polygon is a fan.
-pub fn triangulate(corners: &[u32], vertices: &[[f64; 3]], out: &mut Vec<[u32; 3]>) {
+pub fn triangulate(corners: &[u32], vertices: &[[f64; 3]], out: &mut Vec<[u32; 3]>) -> Result<()> {
     // A loop that is gone round several times is one polygon.
     let n = corners.len();
     let rounds =
         |p: &usize| n.is_multiple_of(*p) && corners.iter().eq(corners[..*p].iter().cycle().take(n));
     let n = (3..=n / 2).take(MOST_EARS).find(rounds).unwrap_or(n);
     let corners = &corners[..n];
-    let fan = |left: &[u32], out: &mut Vec<[u32; 3]>| {
-        if let [a, rest @ ..] = left {
-            out.extend(rest.windows(2).map(|w| [*a, w[0], w[1]]));
-        }
-    };
-    let points: Vec<Vec3> = corners
-        .iter()
-        .map(|&c| vertices.get(c as usize).map_or(Vec3::zeros(), |v| Vec3::from(*v)))
-        .collect();
-    let Some(flat) = (4..=MOST_EARS).contains(&n).then(|| project(&points)).flatten() else {
-        return fan(corners, out);
-    };
-    let mut left: Vec<usize> = (0..n).collect();
-    let mut at = 0;
-    while left.len() > 3 {
-        let m = left.len();
-        let ear = (0..m)
-            .map(|k| (at + k) % m)
-            .find(|&k| is_ear(&flat, &left, left[(k + m - 1) % m], left[k], left[(k + 1) % m]));
-        let Some(k) = ear else { break };
-        let [a, b, c] = [left[(k + m - 1) % m], left[k], left[(k + 1) % m]];
-        out.push([corners[a], corners[b], corners[c]]);
-        left.remove(k);
-        // Stay at the same corner: the next ear then shares it, as in a fan.
-        at = if k == 0 { 0 } else { k % left.len() };
+    let mut polygon = None;
+    if (4..=MOST_EARS).contains(&n) {
+        let place = |&c: &u32| vertices.get(c as usize).map_or(Vec3::zeros(), |v| Vec3::from(*v));
+        let mut points = reserve("corners of a polygon", n)?;
+        points.extend(corners.iter().map(place));
+        polygon = project(&points)?.map(Ears::new).transpose()?;
     }
-    let left: Vec<u32> = left.into_iter().map(|i| corners[i]).collect();
-    fan(&left, out);
+    let mut left: Vec<usize> = reserve("corners of a polygon", n)?;
+    match polygon {
+        Some(mut ears) => {
+            while let Some([a, b, c]) = ears.cut() {
+                push("faces", out, [corners[a], corners[b], corners[c]])?;
+            }
+            left.extend(ears.left());
+        }
+        None => left.extend(0..n),
+    }
+    if let [a, rest @ ..] = left.as_slice() {
+        for w in rest.windows(2) {
+            push("faces", out, [*a, w[0], w[1]].map(|i| corners[i]))?;
+        }
+    }
+    Ok(())
+}
+
+/// A polygon whose ears are cut off: what is an ear changes only beside the cut, and only
+/// corners that turn right can lie in one. So the work is the number of corners times the
+/// number of those.
+struct Ears {
+    flat: Vec<[f64; 2]>,
+    /// The corners before and after each one that are left.
+    before: Vec<usize>,
+    after: Vec<usize>,
+    count: usize,
+    ear: Vec<bool>,
+    /// Corners that do not turn left, among those that are left or were.
+    hollow: Vec<usize>,
+    is_hollow: Vec<bool>,
+    /// Where the next ear is looked for.
+    at: usize,
+}
+
+impl Ears {
+    fn new(flat: Vec<[f64; 2]>) -> Result<Ears> {
+        let n = flat.len();
+        let mut before = reserve("corners of a polygon", n)?;
+        before.extend((0..n).map(|i| (i + n - 1) % n));
+        let mut after = reserve("corners of a polygon", n)?;
+        after.extend((0..n).map(|i| (i + 1) % n));
+        let mut ears = Ears {
+            flat,
+            before,
+            after,
+            count: n,
+            ear: filled("corners of a polygon", n, false)?,
+            hollow: reserve("corners of a polygon", n)?,
+            is_hollow: filled("corners of a polygon", n, false)?,
+            at: 0,
+        };
+        (0..n).for_each(|i| ears.judge_turn(i));
+        (0..n).for_each(|i| ears.judge_ear(i));
+        Ok(ears)
+    }
+
+    /// Cuts an ear off; `None` at the last triangle, or where there is no ear.
+    fn cut(&mut self) -> Option<[usize; 3]> {
+        if self.count <= 3 {
+            return None;
+        }
+        let mut b = self.at;
+        for _ in 0..self.count {
+            if self.ear[b] {
+                break;
+            }
+            b = self.after[b];
+        }
+        if !self.ear[b] {
+            return None;
+        }
+        let (a, c) = (self.before[b], self.after[b]);
+        self.after[a] = c;
+        self.before[c] = a;
+        self.count -= 1;
+        self.is_hollow[b] = false;
+        // Stay at the same place: the next ear then shares the corner, as in a fan.
+        self.at = c;
+        self.judge_turn(a);
+        self.judge_turn(c);
+        self.judge_ear(a);
+        self.judge_ear(c);
+        Some([a, b, c])
+    }
+
+    /// The corners that are left, in their order.
+    fn left(&self) -> impl Iterator<Item = usize> {
+        // From the lowest, as if those that are gone had been taken out of a row.
+        let mut first = self.at;
+        let mut i = self.after[first];
+        while i != self.at {
+            first = first.min(i);
+            i = self.after[i];
+        }
+        std::iter::successors(Some(first), |&i| Some(self.after[i])).take(self.count)
+    }
+
+    fn judge_turn(&mut self, b: usize) {
+        let [p, q, r] = [self.before[b], b, self.after[b]].map(|i| self.flat[i]);
+        let hollow = turn(p, q, r) <= LEFT;
+        if hollow && !self.is_hollow[b] {
+            self.hollow.push(b);
+        }
+        self.is_hollow[b] = hollow;
+    }
+
+    /// Whether the corner turns left and no other one lies in the triangle.
+    fn judge_ear(&mut self, b: usize) {
+        let [p, q, r] = [self.before[b], b, self.after[b]].map(|i| self.flat[i]);
+        let is_hollow = &self.is_hollow;
+        self.hollow.retain(|&i| is_hollow[i]);
+        self.ear[b] = !self.is_hollow[b]
+            && self.hollow.iter().all(|&i| {
+                let s = self.flat[i];
+                // Corners at the same place, as at the ends of a bridge to a hole, do not count.
+                s == p
+                    || s == q
+                    || s == r
+                    || turn(p, q, s) < 0.0
+                    || turn(q, r, s) < 0.0
+                    || turn(r, p, s) < 0.0
+            });
+    }
 }
 
 /// The corners in the plane of the polygon, scaled to size one.
-fn project(points: &[Vec3]) -> Option<Vec<[f64; 2]>> {
-    let first = points.first()?;
+fn project(points: &[Vec3]) -> Result<Option<Vec<[f64; 2]>>> {
+    let Some(first) = points.first() else { return Ok(None) };
     let size = points.iter().map(|p| (p - first).amax()).fold(0.0, f64::max);
     if !(size.is_finite() && size > f64::MIN_POSITIVE) {
-        return None;
+        return Ok(None);
     }
-    let unit: Vec<Vec3> = points.iter().map(|p| (p - first) / size).collect();
+    let unit = |p: &Vec3| (p - first) / size;
     let mut normal = Vec3::zeros();
-    for (i, p) in unit.iter().enumerate() {
-        normal += p.cross(&unit[(i + 1) % unit.len()]);
+    for (p, q) in points.iter().zip(points.iter().cycle().skip(1)) {
+        normal += unit(p).cross(&unit(q));
     }
     // Drop the axis along which the normal is largest; keep the turning sense.
     let axis = normal.iamax();
     let sign = normal[axis];
     if sign == 0.0 || !sign.is_finite() {
-        return None;
+        return Ok(None);
     }
     let (u, v) = match (axis, sign > 0.0) {
         (0, true) => (1, 2),
@@ -71,32 +178,19 @@ fn project(points: &[Vec3]) -> Option<Vec<[f64; 2]>> {
         (_, true) => (0, 1),
         (_, false) => (1, 0),
     };
-    Some(unit.iter().map(|p| [p[u], p[v]]).collect())
+    let mut flat = reserve("corners of a polygon", points.len())?;
+    flat.extend(points.iter().map(unit).map(|p| [p[u], p[v]]));
+    Ok(Some(flat))
 }
 
 fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Whether the corner b turns left and no other corner lies in the triangle.
-fn is_ear(flat: &[[f64; 2]], left: &[usize], a: usize, b: usize, c: usize) -> bool {
-    let [p, q, r] = [flat[a], flat[b], flat[c]];
-    turn(p, q, r) > 1e-14
-        && left.iter().all(|&i| {
-            let s = flat[i];
-            // Corners at the same place, as at the ends of a bridge to a hole, do not count.
-            s == p
-                || s == q
-                || s == r
-                || turn(p, q, s) < 0.0
-                || turn(q, r, s) < 0.0
-                || turn(r, p, s) < 0.0
-        })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn area(v: &[[f64; 3]], faces: &[[u32; 3]]) -> (f64, f64) {
         let each = faces.iter().map(|f| {
@@ -123,7 +217,7 @@ mod tests {
                 corners.reverse();
             }
             let mut out = Vec::new();
-            triangulate(&corners, &v, &mut out);
+            triangulate(&corners, &v, &mut out).unwrap();
             let (signed, sum) = area(&v, &out);
             assert_eq!(out.len(), v.len() - 2);
             assert!((signed.abs() - sum).abs() < 1e-12, "{signed} {sum}");
@@ -131,11 +225,71 @@ mod tests {
         }
     }
 
+    /// A comb with `teeth` teeth, and its area.
+    fn comb(teeth: u32) -> (Vec<[f64; 3]>, f64) {
+        let width = 2.0 * f64::from(teeth);
+        let mut v = vec![[0.0, -1.0, 0.0], [width, -1.0, 0.0]];
+        for i in (0..teeth).rev() {
+            let x = 2.0 * f64::from(i);
+            v.extend([[x + 2.0, 0.0, 0.0], [x + 1.0, 90.0, 0.0]]);
+        }
+        v.push([0.0, 0.0, 0.0]);
+        (v, width + 90.0 * f64::from(teeth))
+    }
+
+    #[test]
+    fn large_polygons_that_are_not_convex_are_cut_in_time() {
+        // With the cube of the corners this would take hours.
+        let (v, expected) = comb(1020);
+        let corners: Vec<u32> = (0..v.len() as u32).collect();
+        for turn in 0..60 {
+            let mut corners = corners.clone();
+            corners.rotate_left(turn * 31);
+            let mut out = Vec::new();
+            triangulate(&corners, &v, &mut out).unwrap();
+            let (signed, sum) = area(&v, &out);
+            assert_eq!(out.len(), v.len() - 2);
+            assert!((signed - expected).abs() < 1e-6 && (sum - expected).abs() < 1e-6);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 60, ..Default::default() })]
+        #[test]
+        fn star_shaped_ones_are_covered_once(
+            radii in prop::collection::vec(0.2f64..1.0, 3..60),
+            from in 0usize..60,
+        ) {
+            let n = radii.len();
+            let v: Vec<[f64; 3]> = radii
+                .iter()
+                .enumerate()
+                .map(|(i, r)| {
+                    let t = i as f64 / n as f64 * std::f64::consts::TAU;
+                    [r * t.cos(), r * t.sin(), 0.3 * t.cos()]
+                })
+                .collect();
+            let mut corners: Vec<u32> = (0..n as u32).collect();
+            corners.rotate_left(from % n);
+            let mut out = Vec::new();
+            triangulate(&corners, &v, &mut out).unwrap();
+            let (signed, sum) = area(&v, &out);
+            let expected: f64 = (0..n)
+                .map(|i| {
+                    let (p, q) = (v[i], v[(i + 1) % n]);
+                    (p[0] * q[1] - p[1] * q[0]) / 2.0
+                })
+                .sum();
+            prop_assert_eq!(out.len(), n - 2);
+            prop_assert!((signed - expected).abs() < 1e-9 && (sum - expected).abs() < 1e-9);
+        }
+    }
+
     #[test]
     fn a_loop_gone_round_twice_is_one_polygon() {
         let v = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
         let mut out = Vec::new();
-        triangulate(&[0, 1, 2, 3, 0, 1, 2, 3], &v, &mut out);
+        triangulate(&[0, 1, 2, 3, 0, 1, 2, 3], &v, &mut out).unwrap();
         assert_eq!((out.len(), area(&v, &out)), (2, (1.0, 1.0)));
     }
 
@@ -144,7 +298,7 @@ mod tests {
         let v =
             [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 1.0, 0.0], [1.0, 2.0, 0.0], [0.0, 2.0, 0.0]];
         let mut out = Vec::new();
-        triangulate(&[0, 1, 2, 3, 4], &v, &mut out);
+        triangulate(&[0, 1, 2, 3, 4], &v, &mut out).unwrap();
         assert_eq!(area(&v, &out).0, 3.0);
         assert_eq!(out.len(), 3);
     }

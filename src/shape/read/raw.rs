@@ -1,11 +1,11 @@
 //! Raw voxel data: dimensions and type are declared by the caller.
 
-use super::{FileOptions, RawType, RawValues, RawVoxels};
+use super::{FileOptions, RawType, RawValues, RawVoxels, Reading};
 use crate::error::{Error, Result, reserve};
 use crate::shape::Layout;
 
 /// The voxels of raw bytes, which must be as long as declared.
-pub(super) fn read(bytes: &[u8], options: &FileOptions) -> Result<RawVoxels> {
+pub(super) fn read(bytes: &[u8], options: &FileOptions, reading: &Reading) -> Result<RawVoxels> {
     let Some((dims, kind, skip)) = options.raw else {
         return Err(Error::InvalidArgument(
             "raw data need dimensions, element type and bytes to skip".into(),
@@ -29,7 +29,7 @@ pub(super) fn read(bytes: &[u8], options: &FileOptions) -> Result<RawVoxels> {
             bytes.len()
         )));
     }
-    super::voxels::limit(cells, size, options)?;
+    super::voxels::limit(cells, size, reading)?;
     let data = bytes.get(skip..).unwrap_or_default();
     let values = match kind {
         RawType::U8 => RawValues::U8(gather(data, |[b]| b)?),

@@ -2,8 +2,8 @@
 //! keeps single precision, stops after the first solid, and knows neither upper
 //! case nor line numbers.
 
-use super::{RawMesh, text};
-use crate::error::{Error, Result, reserve};
+use super::{RawMesh, Reading, text};
+use crate::error::{Error, Result, push};
 
 const HEADER: usize = 84;
 const FACE: usize = 50;
@@ -20,9 +20,9 @@ fn declared(bytes: &[u8]) -> Option<usize> {
 }
 
 /// Reads STL of either kind.
-pub fn read(bytes: &[u8]) -> Result<RawMesh> {
+pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<RawMesh> {
     if is_binary_by_size(bytes) {
-        return binary(bytes);
+        return binary(bytes, reading);
     }
     if let Some(order) = text::utf16(bytes) {
         return Err(Error::Format(format!("the STL is {order} text: save it as ASCII")));
@@ -32,10 +32,10 @@ pub fn read(bytes: &[u8]) -> Result<RawMesh> {
     let says_solid = start.get(..5).is_some_and(|w| w.eq_ignore_ascii_case(b"solid"));
     // A text has no zeros and no bytes beyond ASCII in its keywords; names may be anything.
     let head = &bytes[..bytes.len().min(512)];
-    if says_solid && !head.contains(&0) { ascii(body) } else { binary(bytes) }
+    if says_solid && !head.contains(&0) { ascii(body, reading) } else { binary(bytes, reading) }
 }
 
-fn binary(bytes: &[u8]) -> Result<RawMesh> {
+fn binary(bytes: &[u8], reading: &Reading) -> Result<RawMesh> {
     let n = declared(bytes).ok_or_else(|| {
         Error::Format(format!(
             "the binary STL ends at byte {}, within its header of {HEADER} bytes",
@@ -64,21 +64,18 @@ fn binary(bytes: &[u8]) -> Result<RawMesh> {
     header[80..].copy_from_slice(&bytes[80..HEADER]);
     let mut source = Joined { head: &header, tail: &bytes[HEADER..], at: 0 };
     let broken = |e: std::io::Error| Error::Format(format!("the binary STL is broken: {e}"));
-    let mut mesh = with_room(n)?;
+    if n > u32::MAX as usize / 3 {
+        return Err(Error::TooLarge(format!("{n} faces have more corners than 2³²")));
+    }
+    let mut mesh = reading.mesh(3 * n, n)?;
     for (i, t) in stl_io::create_stl_reader(&mut source).map_err(broken)?.enumerate() {
+        reading.tick(i, &mesh)?;
         let t = t.map_err(broken)?;
         mesh.vertices.extend(t.vertices.map(|v| v.0.map(f64::from)));
         let k = 3 * i as u32;
         mesh.faces.push([k, k + 1, k + 2]);
     }
     Ok(mesh)
-}
-
-fn with_room(faces: usize) -> Result<RawMesh> {
-    if faces > u32::MAX as usize / 3 {
-        return Err(Error::TooLarge(format!("{faces} faces have more corners than 2³²")));
-    }
-    Ok(RawMesh { vertices: reserve("vertices", 3 * faces)?, faces: reserve("faces", faces)? })
 }
 
 /// Two pieces of bytes as one source.
@@ -112,10 +109,11 @@ impl std::io::Seek for Joined<'_> {
 }
 
 /// Facets of any number of solids; keywords in any case, normals not looked at.
-fn ascii(bytes: &[u8]) -> Result<RawMesh> {
+fn ascii(bytes: &[u8], reading: &Reading) -> Result<RawMesh> {
     let mut mesh = RawMesh::default();
     let (mut open, mut corners, mut ended, mut last) = (false, 0, false, 0);
     for (n, line) in text::lines(bytes) {
+        reading.tick(n, &mesh)?;
         let mut words = text::words(line);
         let Some(word) = words.next() else { continue };
         last = n;
@@ -127,9 +125,9 @@ fn ascii(bytes: &[u8]) -> Result<RawMesh> {
             b"vertex" if open && corners < 3 => {
                 let mut v = [0.0; 3];
                 for (x, axis) in v.iter_mut().zip(["x", "y", "z"]) {
-                    *x = text::number(words.next(), n, &format!("{axis} of the vertex"))?;
+                    *x = text::coordinate(words.next(), n, &format!("{axis} of the vertex"))?;
                 }
-                mesh.vertices.push(v);
+                push("vertices", &mut mesh.vertices, v)?;
                 corners += 1;
             }
             b"vertex" if open => return Err(text::fault(n, "the facet has more than 3 vertices")),
@@ -141,7 +139,7 @@ fn ascii(bytes: &[u8]) -> Result<RawMesh> {
                 let k = u32::try_from(mesh.vertices.len()).map_err(|_| {
                     Error::TooLarge(format!("line {n}: more than {} vertices", u32::MAX))
                 })?;
-                mesh.faces.push([k - 3, k - 2, k - 1]);
+                push("faces", &mut mesh.faces, [k - 3, k - 2, k - 1])?;
                 open = false;
             }
             _ => {

@@ -23,11 +23,15 @@ pub fn utf16(bytes: &[u8]) -> Option<&'static str> {
     }
 }
 
+/// The byte that ends the lines of a text: CR only where there is no LF, as a CR before
+/// an LF ends no line of its own.
+pub fn line_end(bytes: &[u8]) -> u8 {
+    if bytes.contains(&b'\n') { b'\n' } else { b'\r' }
+}
+
 /// Lines with their numbers from 1; the end of line may be LF, CRLF or CR.
 pub fn lines(bytes: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
-    // A CR before an LF ends no line of its own.
-    let cr_only = !bytes.contains(&b'\n');
-    let end = if cr_only { b'\r' } else { b'\n' };
+    let end = line_end(bytes);
     bytes.split(move |&b| b == end).enumerate().map(|(i, l)| (i + 1, l.trim_ascii()))
 }
 
@@ -43,6 +47,15 @@ pub fn number<T: std::str::FromStr>(word: Option<&[u8]>, line: usize, what: &str
         .ok()
         .and_then(|s| s.parse().ok())
         .ok_or_else(|| fault(line, &format!("{what} is \"{}\", not a number", short(word))))
+}
+
+/// As [`number`], for a coordinate, which must be finite.
+pub fn coordinate(word: Option<&[u8]>, line: usize, what: &str) -> Result<f64> {
+    let x: f64 = number(word, line, what)?;
+    if x.is_finite() {
+        return Ok(x);
+    }
+    Err(Error::NotFinite(format!("line {line}: {what} is {x}")))
 }
 
 /// The beginning of a word, printable.

@@ -2,7 +2,7 @@
 //! lowest; columns are x, rows are y.
 
 use super::numbers::Numbers;
-use super::{FileOptions, RawVoxels};
+use super::{FileOptions, RawVoxels, Reading};
 use crate::error::{Error, Result};
 use crate::shape::Layout;
 use std::io::Cursor;
@@ -10,8 +10,9 @@ use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::{ColorType, TiffError};
 
 /// The voxels of a TIFF file.
-pub(super) fn read(bytes: &[u8], options: &FileOptions) -> Result<RawVoxels> {
-    let most = usize::try_from(options.import.memory_limit).unwrap_or(usize::MAX);
+pub(super) fn read(bytes: &[u8], options: &FileOptions, reading: &Reading) -> Result<RawVoxels> {
+    let most = reading.limit.saturating_sub(reading.held);
+    let most = usize::try_from(most).unwrap_or(usize::MAX);
     let mut limits = Limits::default();
     limits.decoding_buffer_size = most;
     limits.intermediate_buffer_size = most;
@@ -48,7 +49,8 @@ pub(super) fn read(bytes: &[u8], options: &FileOptions) -> Result<RawVoxels> {
         // What is there with this page, and a conversion of it.
         let plane = size.0 as usize * size.1 as usize;
         let each = usize::from(bits).div_ceil(8) + 4;
-        super::voxels::limit(plane.saturating_mul(pages + 1), each, options)?;
+        super::voxels::limit(plane.saturating_mul(pages + 1), each, reading)?;
+        reading.run.check(0.0, "reading the TIFF")?;
         let page = decoder.read_image().map_err(|e| failed(e, pages, options))?;
         let page = numbers(page, bits, size)?;
         if page.len() != plane {

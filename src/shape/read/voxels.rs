@@ -1,54 +1,73 @@
 //! From the voxels of a file to a shape, by what the values mean.
 
-use super::{FileOptions, Format, Meaning, RawValues, RawVoxels, npy, raw, tiff};
+use super::{FileOptions, Format, Meaning, RawValues, RawVoxels, Reading, npy, raw, tiff};
 use crate::error::{Error, Result, reserve};
 use crate::run::Run;
 use crate::shape::Shape;
 use crate::shape::voxels::{Grey, Threshold, widen_labels};
 
 /// The voxels of a file.
-pub(super) fn read(bytes: &[u8], format: Format, options: &FileOptions) -> Result<RawVoxels> {
+pub(super) fn read(
+    bytes: &[u8],
+    format: Format,
+    options: &FileOptions,
+    reading: &Reading,
+) -> Result<RawVoxels> {
+    reading.run.check(0.0, "reading the voxels")?;
     match format {
-        Format::Npy => npy::read(bytes, options),
-        Format::Tiff => tiff::read(bytes, options),
-        Format::Raw => raw::read(bytes, options),
+        Format::Npy => npy::read(bytes, options, reading),
+        Format::Tiff => tiff::read(bytes, options, reading),
+        Format::Raw => raw::read(bytes, options, reading),
         _ => Err(Error::Internal(format!("{format:?} is no voxel format"))),
     }
 }
 
 /// Refuses `cells` values that take more than the limit, at `each` bytes.
-pub(super) fn limit(cells: usize, each: usize, options: &FileOptions) -> Result<()> {
-    let bytes = cells as u128 * each as u128;
-    let most = options.import.memory_limit;
-    if bytes > u128::from(most) {
-        return Err(Error::MemoryLimit(format!(
-            "{cells} voxels need {bytes} bytes, the limit is {most}"
-        )));
-    }
-    Ok(())
+pub(super) fn limit(cells: usize, each: usize, reading: &Reading) -> Result<()> {
+    reading.allow(cells as u128 * each as u128, || format!("{cells} voxels"))
 }
 
 /// The shape of the voxels of a file.
 pub(super) fn shape(voxels: RawVoxels, options: &FileOptions, run: &Run) -> Result<Shape> {
     let RawVoxels { layout, values, notes } = voxels;
     let import = &options.import;
+    // What is held while the shape is made: the values, and a mask or labels made of them.
+    let bytes = values.bytes();
+    let (cells, limit) = (values.len() as u64, import.memory_limit);
+    let more = match (&values, options.meaning) {
+        (RawValues::U8(_), Meaning::Auto) => 0,
+        (RawValues::U32(_), Meaning::Label(_)) => 0,
+        (_, Meaning::Label(_)) => 4 * cells,
+        (RawValues::U32(_), _) => 4 * cells,
+        (_, Meaning::Auto) => cells,
+        (_, Meaning::Grey(_)) => 0,
+    };
+    if bytes.saturating_add(more) > limit {
+        return Err(Error::MemoryLimit(format!(
+            "{cells} voxels and what is made of them need {} bytes, the limit is {limit}",
+            bytes.saturating_add(more)
+        )));
+    }
+    let bytes = bytes + more;
+    let make = |mask: &[u8]| Shape::from_read_mask(mask, &layout, import, bytes, run);
     let mut shape = match options.meaning {
         Meaning::Label(label) => {
             let labels = as_labels(values)?;
-            Shape::from_label(&labels, &layout, label, import, run)
+            Shape::from_read_label(&labels, &layout, label, import, bytes, run)
         }
         Meaning::Auto if is_mask(&values) => match &values {
-            RawValues::U8(v) => Shape::from_mask(v, &layout, import, run),
-            RawValues::U16(v) => Shape::from_mask(&mask(v)?, &layout, import, run),
-            RawValues::U32(v) => Shape::from_mask(&mask(v)?, &layout, import, run),
-            RawValues::F32(v) => Shape::from_mask(&mask(v)?, &layout, import, run),
+            RawValues::U8(v) => make(v),
+            RawValues::U16(v) => make(&mask(v)?),
+            RawValues::U32(v) => make(&mask(v)?),
+            RawValues::F32(v) => make(&mask(v)?),
         },
         Meaning::Auto | Meaning::Grey(_) => {
             let threshold = match options.meaning {
                 Meaning::Grey(threshold) => threshold,
                 _ => Threshold::Otsu,
             };
-            let grey = |values| Shape::from_grey(values, &layout, threshold, import, run);
+            let grey =
+                |values| Shape::from_read_grey(values, &layout, threshold, import, bytes, run);
             match &values {
                 RawValues::U8(v) => grey(Grey::U8(v)),
                 RawValues::U16(v) => grey(Grey::U16(v)),

@@ -36,6 +36,18 @@ impl Shape {
         options: &ImportOptions,
         run: &Run,
     ) -> Result<Shape> {
+        Shape::from_read_grey(values, layout, threshold, options, 0, run)
+    }
+
+    /// As [`Shape::from_grey`], beside `held` bytes of a file's values.
+    pub(crate) fn from_read_grey(
+        values: Grey,
+        layout: &Layout,
+        threshold: Threshold,
+        options: &ImportOptions,
+        held: u64,
+        run: &Run,
+    ) -> Result<Shape> {
         layout.check(values.len())?;
         run.time(Stage::Check, || {
             if let Grey::F32(v) = values
@@ -53,15 +65,15 @@ impl Shape {
             let mut shape = match values {
                 Grey::U8(v) => {
                     let solid = |i: usize| v.get(i).is_some_and(|&x| f64::from(x) > above);
-                    build(&solid, layout, options, run)
+                    build(&solid, layout, options, held, run)
                 }
                 Grey::U16(v) => {
                     let solid = |i: usize| v.get(i).is_some_and(|&x| f64::from(x) > above);
-                    build(&solid, layout, options, run)
+                    build(&solid, layout, options, held, run)
                 }
                 Grey::F32(v) => {
                     let solid = |i: usize| v.get(i).is_some_and(|&x| f64::from(x) > above);
-                    build(&solid, layout, options, run)
+                    build(&solid, layout, options, held, run)
                 }
             }
             .map_err(|e| match e {

@@ -2,10 +2,10 @@
 
 use super::mask::{CellBox, build};
 use super::{LabelInfo, Layout};
-use crate::error::{Error, Result, reserve};
+use crate::error::{Error, Result, push, reserve};
 use crate::run::{Run, Stage};
 use crate::shape::{ImportOptions, Shape};
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 
 impl Shape {
     /// The shape of one label of a label volume.
@@ -16,13 +16,25 @@ impl Shape {
         options: &ImportOptions,
         run: &Run,
     ) -> Result<Shape> {
+        Shape::from_read_label(labels, layout, label, options, 0, run)
+    }
+
+    /// As [`Shape::from_label`], beside `held` bytes of a file's values.
+    pub(crate) fn from_read_label(
+        labels: &[u32],
+        layout: &Layout,
+        label: u32,
+        options: &ImportOptions,
+        held: u64,
+        run: &Run,
+    ) -> Result<Shape> {
         layout.check(labels.len())?;
         if label == 0 {
             return Err(Error::InvalidArgument("label 0 is the background, not a particle".into()));
         }
         run.time(Stage::Check, || {
             let solid = |i: usize| labels.get(i).is_some_and(|&l| l == label);
-            build(&solid, layout, options, run).map_err(|e| match e {
+            build(&solid, layout, options, held, run).map_err(|e| match e {
                 Error::Empty(_) => {
                     Error::IndexOutOfRange(format!("label {label} is not in the volume"))
                 }
@@ -36,7 +48,9 @@ impl Shape {
 pub fn list_labels(labels: &[u32], layout: &Layout) -> Result<Vec<LabelInfo>> {
     layout.check(labels.len())?;
     let [nx, ny, _] = layout.dims;
-    let mut found: BTreeMap<u32, (u64, CellBox)> = BTreeMap::new();
+    // Where each label is in the list; its order plays no part.
+    let mut place: HashMap<u32, usize> = HashMap::new();
+    let mut found: Vec<LabelInfo> = Vec::new();
     for (r, row) in labels.chunks(nx).enumerate() {
         let (j, k) = (r % ny, r / ny);
         let mut i = 0;
@@ -46,22 +60,33 @@ pub fn list_labels(labels: &[u32], layout: &Layout) -> Result<Vec<LabelInfo>> {
             let end = row[i..].iter().position(|&l| l != label).map_or(nx, |n| i + n);
             if label != 0 {
                 let run = CellBox { first: [i, j, k], last: [end - 1, j, k] };
-                let entry = found.entry(label).or_insert((0, run));
-                *entry = (entry.0 + (end - i) as u64, entry.1.join(run));
+                let known = place.get(&label).and_then(|&at| found.get_mut(at));
+                if let Some(info) = known {
+                    let all = CellBox { first: info.first, last: info.last }.join(run);
+                    (info.first, info.last) = (all.first, all.last);
+                    info.cells += (end - i) as u64;
+                } else {
+                    place.try_reserve(1).map_err(|_| {
+                        Error::OutOfMemory(format!(
+                            "no memory for more than {} labels",
+                            place.len()
+                        ))
+                    })?;
+                    place.insert(label, found.len());
+                    let (first, last, cells) = (run.first, run.last, (end - i) as u64);
+                    let info = LabelInfo { label, cells, first, last, touches_border: false };
+                    push("labels", &mut found, info)?;
+                }
             }
             i = end;
         }
     }
-    Ok(found
-        .into_iter()
-        .map(|(label, (cells, b))| LabelInfo {
-            label,
-            cells,
-            first: b.first,
-            last: b.last,
-            touches_border: b.touches(layout.dims),
-        })
-        .collect())
+    for info in &mut found {
+        let all = CellBox { first: info.first, last: info.last };
+        info.touches_border = all.touches(layout.dims);
+    }
+    found.sort_unstable_by_key(|info| info.label);
+    Ok(found)
 }
 
 /// Labels of 8 or 16 bits as the 32-bit ones that the other functions take.

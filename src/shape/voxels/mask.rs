@@ -19,9 +19,20 @@ impl Shape {
         options: &ImportOptions,
         run: &Run,
     ) -> Result<Shape> {
+        Shape::from_read_mask(mask, layout, options, 0, run)
+    }
+
+    /// As [`Shape::from_mask`], beside `held` bytes of a file's values.
+    pub(crate) fn from_read_mask(
+        mask: &[u8],
+        layout: &Layout,
+        options: &ImportOptions,
+        held: u64,
+        run: &Run,
+    ) -> Result<Shape> {
         layout.check(mask.len())?;
         run.time(Stage::Check, || {
-            build(&|i| mask.get(i).is_some_and(|&v| v != 0), layout, options, run)
+            build(&|i| mask.get(i).is_some_and(|&v| v != 0), layout, options, held, run)
         })
     }
 }
@@ -57,11 +68,12 @@ impl CellBox {
 }
 
 /// The shape of the cells for which `solid(index)` holds, in an array that
-/// [`Layout::check`] has passed.
+/// [`Layout::check`] has passed; `held` bytes of the memory limit are taken.
 pub(super) fn build(
     solid: &(impl Fn(usize) -> bool + Sync),
     layout: &Layout,
     options: &ImportOptions,
+    held: u64,
     run: &Run,
 ) -> Result<Shape> {
     let spacing = scaled("spacing", layout.spacing, options.length_unit, LARGEST)?;
@@ -81,10 +93,11 @@ pub(super) fn build(
     let whole = extent(solid, layout.dims, run)
         .ok_or_else(|| Error::Empty(format!("none of the {nx} x {ny} x {nz} voxels is solid")))?;
 
-    limit(whole, 0, options)?;
+    let limit = |more| limit(whole, more, held, options);
+    limit(0)?;
     let (dims, cells) = crop(solid, layout.dims, whole, run)?;
     run.check(0.02, "counting the bodies of the voxels")?;
-    let components = Components::of(&cells, dims, |bytes| limit(whole, bytes, options))?;
+    let components = Components::of(&cells, dims, limit)?;
     let bodies = components.count();
     let mut report = Report {
         components: bodies as u64,
@@ -117,7 +130,7 @@ pub(super) fn build(
                     first: [0, 1, 2].map(|a| whole.first[a] + inner.first[a]),
                     last: [0, 1, 2].map(|a| whole.first[a] + inner.last[a]),
                 };
-                limit(whole, inner.cells(), options)?;
+                limit(inner.cells())?;
                 (dims, cells) = crop(&|i| cells.get(i).is_some_and(|&v| v != 0), dims, inner, run)?;
             }
         }
@@ -175,11 +188,12 @@ fn scaled(what: &str, v: [f64; 3], unit: f64, most: f64) -> Result<[f64; 3]> {
     Ok(v.map(|x| x * unit))
 }
 
-fn limit(whole: CellBox, more: u64, options: &ImportOptions) -> Result<()> {
+fn limit(whole: CellBox, more: u64, held: u64, options: &ImportOptions) -> Result<()> {
     let bytes = whole.cells().saturating_add(more);
-    if bytes > options.memory_limit {
+    if bytes.saturating_add(held) > options.memory_limit {
+        let beside = if held > 0 { format!(" beside the {held} as read") } else { String::new() };
         return Err(Error::MemoryLimit(format!(
-            "the voxels need {bytes} bytes, the limit is {}",
+            "the voxels need {bytes} bytes{beside}, the limit is {}",
             options.memory_limit
         )));
     }
