@@ -6,6 +6,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
 use morula::generate::{GenerateOptions, generate};
 use morula::shape::read::FileOptions;
 use morula::shape::{Bodies, ImportOptions, Layout};
@@ -175,11 +177,8 @@ fn mismatch(solid: &Solid, spheres: &[Sphere]) -> f64 {
 
 #[test]
 fn d_is_at_most_the_reference_s_on_its_own_voxels() {
-    let Some(data) = std::env::var_os("MORULA_DATA") else {
-        println!("skipped: MORULA_DATA is not set");
-        return;
-    };
-    let data = Path::new(&data).join("benchmark");
+    let Some(data) = common::data() else { return };
+    let data = data.join("benchmark");
     let full = std::env::var_os("MORULA_FULL").is_some();
     let run = Run::serial();
     let mut last: Option<(String, f64, Solid)> = None;
