@@ -277,8 +277,9 @@ typedef int32_t (*morula_progress)(double fraction, void *user);
 typedef struct morula_import_options {
   /// sizeof(morula_import_options).
   size_t struct_size;
-  /// Vertices nearer than this times the longest edge of the bounding box are one.
-  /// Default 1e-6; 0: only equal ones.
+  /// Vertices at open edges that are nearer to each other than this times the longest edge of
+  /// the bounding box (and than a quarter of the faces' median edge) are one, where that closes
+  /// the surface further. Default 1e-6; 0: only equal ones.
   double weld_tolerance;
   /// Coordinates are multiplied by it (0.001 takes millimetres to metres). Default 1.
   double length_unit;
@@ -339,7 +340,11 @@ typedef struct morula_report {
   int32_t inverted;
   /// 1 when solid cells touch the border of the array (voxels).
   int32_t touches_border;
-  /// Volume inside the surface after repair, or of the solid cells.
+  /// Signed volume of the surface after repair: each opening closed by a fan to its middle,
+  /// overlapping parts counted as often as they overlap. Equal to the volume of morula_moments
+  /// for a closed surface that does not cross itself, and for voxels (of the solid cells);
+  /// otherwise that one holds for the particle: it integrates where the winding number is
+  /// above 1/2, with a stated error.
   double volume;
   /// Area of the surface, or of the cells' outer faces.
   double area;
@@ -357,7 +362,9 @@ typedef struct morula_report {
 typedef struct morula_moments {
   /// sizeof(morula_moments), set by the caller.
   size_t struct_size;
-  /// Volume.
+  /// Volume of the inside: of the polyhedron where the mesh is closed and does not cross
+  /// itself, of the solid cells, otherwise of where the winding number is above 1/2 (by columns,
+  /// see relative_error). On open or overlapping meshes the report's volume is another.
   double volume;
   /// Volume times the density.
   double mass;

@@ -3,10 +3,11 @@
 //! not come to an end.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod common;
+
+use common::{Arrays, cuboid};
 use morula::shape::{Bodies, ImportOptions};
 use morula::{Error, Run, Shape};
-
-type Arrays = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 fn import(m: &Arrays) -> Result<Shape, Error> {
     let options = ImportOptions { bodies: Bodies::All, ..ImportOptions::default() };
@@ -200,16 +201,7 @@ fn a_mesh_is_the_same_wherever_it_lies() {
         stitched.1[k] = [a, n, c];
         stitched.1.extend([[n, b, c], [a, b, n]]);
     }
-    let boxed = |at: [f64; 3], edges: [f64; 3]| -> Arrays {
-        let corner = |i: usize, k: usize| at[k] + if i >> k & 1 == 1 { edges[k] } else { 0.0 };
-        let v = (0..8).map(|i| [corner(i, 0), corner(i, 1), corner(i, 2)]).collect();
-        let f: Vec<[u32; 3]> =
-            [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
-                .iter()
-                .flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]])
-                .collect();
-        (v, f)
-    };
+    let boxed = |at: [f64; 3], edges: [f64; 3]| cuboid(at, [0, 1, 2].map(|k| at[k] + edges[k]));
     let both = |a: &Arrays, b: &Arrays| {
         let mut m = a.clone();
         add(&mut m, b);

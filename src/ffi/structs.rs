@@ -11,8 +11,9 @@ use std::ffi::c_void;
 pub struct morula_import_options {
     /// sizeof(morula_import_options).
     pub struct_size: usize,
-    /// Vertices nearer than this times the longest edge of the bounding box are one.
-    /// Default 1e-6; 0: only equal ones.
+    /// Vertices at open edges that are nearer to each other than this times the longest edge of
+    /// the bounding box (and than a quarter of the faces' median edge) are one, where that closes
+    /// the surface further. Default 1e-6; 0: only equal ones.
     pub weld_tolerance: f64,
     /// Coordinates are multiplied by it (0.001 takes millimetres to metres). Default 1.
     pub length_unit: f64,
@@ -177,7 +178,11 @@ pub struct morula_report {
     pub inverted: i32,
     /// 1 when solid cells touch the border of the array (voxels).
     pub touches_border: i32,
-    /// Volume inside the surface after repair, or of the solid cells.
+    /// Signed volume of the surface after repair: each opening closed by a fan to its middle,
+    /// overlapping parts counted as often as they overlap. Equal to the volume of morula_moments
+    /// for a closed surface that does not cross itself, and for voxels (of the solid cells);
+    /// otherwise that one holds for the particle: it integrates where the winding number is
+    /// above 1/2, with a stated error.
     pub volume: f64,
     /// Area of the surface, or of the cells' outer faces.
     pub area: f64,
@@ -197,7 +202,9 @@ pub struct morula_report {
 pub struct morula_moments {
     /// sizeof(morula_moments), set by the caller.
     pub struct_size: usize,
-    /// Volume.
+    /// Volume of the inside: of the polyhedron where the mesh is closed and does not cross
+    /// itself, of the solid cells, otherwise of where the winding number is above 1/2 (by columns,
+    /// see relative_error). On open or overlapping meshes the report's volume is another.
     pub volume: f64,
     /// Volume times the density.
     pub mass: f64,

@@ -40,8 +40,12 @@ pub struct Report {
     pub touches_border: bool,
     /// Bodies dropped by the choice `Largest`.
     pub bodies_dropped: u64,
-    /// Signed volume of the surface after repair, openings closed by fans, overlaps of parts
-    /// counted more than once; or of the solid cells.
+    /// Signed volume of the surface after repair: each opening closed by a fan to its middle,
+    /// overlapping parts counted as often as they overlap; or of the solid cells.
+    ///
+    /// Equal to the volume of the moments ([`crate::solid`]) for voxels and for a closed surface
+    /// that does not cross itself. Otherwise the two differ, and that of the moments holds for the
+    /// particle: it integrates where the winding number is above ½, with a stated error.
     pub volume: f64,
     /// Surface area, or area of the cells' outer faces.
     pub area: f64,
