@@ -91,6 +91,21 @@ fn one_vertex_far_away_neither_slows_nor_collapses() {
 }
 
 #[test]
+fn faces_that_vanish_close_nothing() {
+    // Triangles so small and so near to each other that welding would make them one point.
+    let mut m = sphere(24, 48, 1.0, [0.0; 3]);
+    let whole = import(&m).unwrap().report;
+    let mut x = numbers();
+    for _ in 0..20 {
+        let corners = (0..3).map(|_| [0.3, 0.2, 2.0].map(|c| c + 1e-8 * x())).collect();
+        add(&mut m, &(corners, vec![[0, 1, 2]]));
+    }
+    let r = import(&m).unwrap().report;
+    assert_eq!((r.welded_vertices, r.faces, r.bodies), (0, whole.faces, 1));
+    assert!(r.watertight && r.volume == whole.volume);
+}
+
+#[test]
 fn a_surface_in_pieces_is_one_surface() {
     // Each triangle a little smaller than its place.
     let mut m = soup(&sphere(200, 400, 1.0, [0.0; 3]));

@@ -152,7 +152,7 @@ fn what_is_held_counts_towards_the_limit() {
     let with = |options: &FileOptions, name: &str, bytes: &[u8]| {
         Shape::from_bytes(bytes, name, options, &Run::serial())
     };
-    options.import.memory_limit = 8 * 60 + 12 * 170;
+    options.import.memory_limit = 8 * 60 + 12 * 200;
     let files = [
         ("a.off", off("OFF").into_bytes()),
         ("a.obj", obj().into_bytes()),
@@ -161,7 +161,7 @@ fn what_is_held_counts_towards_the_limit() {
     for (name, bytes) in &files {
         let e = with(&options, name, bytes).unwrap_err();
         assert!(
-            matches!(&e, Error::MemoryLimit(s) if s.contains("as read, the limit is 2520")),
+            matches!(&e, Error::MemoryLimit(s) if s.contains("as read, the limit is 2880")),
             "{name}: {e}"
         );
     }
