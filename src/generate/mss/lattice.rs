@@ -77,11 +77,11 @@ impl Lattice {
     /// The same for every `stride`-th row along y and z, up to the cell `most` on each axis.
     fn some_spans(&self, ball: &Ball, stride: usize, most: &[f64; 3], mut visit: impl FnMut(Span)) {
         let stride = stride as f64;
-        let on = |n: f64| (n / stride).ceil() * stride;
+        let on = |n: f64| ceil(n / stride) * stride;
         let r2 = ball.radius * ball.radius;
         let range = |a: usize, reach: f64| {
-            let lo = ((ball.center[a] - reach) / self.step[a]).ceil().max(0.0);
-            let hi = ((ball.center[a] + reach) / self.step[a]).floor();
+            let lo = ceil((ball.center[a] - reach) / self.step[a]).max(0.0);
+            let hi = -ceil(-(ball.center[a] + reach) / self.step[a]);
             (lo, hi.min(most[a]).min(self.dims[a] as f64 - 1.0))
         };
         let (k0, k1) = range(2, ball.radius);
@@ -175,6 +175,13 @@ impl Lattice {
         });
         sum
     }
+}
+
+/// The whole number at or above a number of cells. `f64::ceil` is a call into the C library where
+/// the processor may be an old one, and there are two for every row.
+fn ceil(x: f64) -> f64 {
+    let below = x as i64 as f64;
+    if below < x { below + 1.0 } else { below }
 }
 
 /// The bits of word `w` that belong to the stretch.
