@@ -20,6 +20,9 @@ const BUCKET: usize = 8;
 /// slant it makes no difference, so much that on round faces there are several.
 const NEARLY: f64 = 0.1;
 
+/// More than so many of them are looked for a second time instead of being kept.
+const HELD: usize = 32;
+
 /// An empty cell with solid neighbours.
 #[derive(Debug, Clone, Copy)]
 struct Rim {
@@ -96,22 +99,52 @@ impl Rims {
     /// Distance from `p` to the surface. `within` must not be less than that to the nearest
     /// empty cell centre.
     pub fn depth(&self, p: &[f64; 3], within: f64) -> f64 {
+        let square = |x: f64| x * x;
         let mut best = within * within;
-        self.around(p, within, |d2, _| {
-            best = best.min(d2);
-            best
+        let mut limit = square(within + NEARLY);
+        // Those about as near as the nearest so far, while they are few.
+        let mut held = [(0.0, Rim { cell: [0; 3], solid: 0 }); HELD];
+        let mut count = 0;
+        self.around(p, within + NEARLY, |d2, rim| {
+            if d2 < best {
+                best = d2;
+                limit = square(best.sqrt() + NEARLY);
+            }
+            if d2 <= limit {
+                if count == HELD {
+                    count = 0;
+                    for n in 0..HELD {
+                        if held[n].0 <= limit {
+                            held[count] = held[n];
+                            count += 1;
+                        }
+                    }
+                }
+                if let Some(free) = held.get_mut(count) {
+                    *free = (d2, *rim);
+                    count += 1;
+                } else {
+                    count = HELD + 1;
+                }
+            }
+            limit
         });
         let nearest = best.sqrt();
-        let limit = nearest + NEARLY;
         let mut gap: Option<f64> = None;
-        self.around(p, limit, |d2, rim| {
-            if d2 <= limit * limit
+        let mut look = |d2: f64, rim: &Rim| {
+            if d2 <= limit
                 && let Some(next) = rim.gap(p, &self.step, d2)
             {
                 gap = Some(gap.map_or(next, |g| g.min(next)));
             }
-            limit * limit
-        });
+        };
+        match held.get(..count) {
+            Some(few) => few.iter().for_each(|(d2, rim)| look(*d2, rim)),
+            None => self.around(p, nearest + NEARLY, |d2, rim| {
+                look(d2, rim);
+                limit
+            }),
+        }
         nearest - 0.5 * gap.unwrap_or(0.0)
     }
 
