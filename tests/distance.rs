@@ -99,6 +99,15 @@ fn every_primitive_is_within_a_hundredth_of_a_cell() {
     }
 }
 
+/// Grids that are cut by clusters of features, with faces smaller than a cell and larger.
+#[test]
+fn large_grids_are_too() {
+    check("stone", &primitive("stone", 60), 60, 1999);
+    check("torus", &primitive("torus", 40), 100, 2999);
+    check("cone", &primitive("cone", 12), 180, 9973);
+    check("box", &primitive("box", 8), 130, 4999);
+}
+
 #[test]
 fn thin_and_sharp_shapes_are_too() {
     let run = Run::serial();

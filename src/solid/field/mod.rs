@@ -7,12 +7,14 @@
 //! distance transform of both sides, less what the surface lies before the nearest centre of
 //! the other side (half a cell over faces along the axes).
 
-// Loops over lanes and axes index several arrays at once.
-#[allow(clippy::needless_range_loop)]
 mod bricks;
 mod cells;
-#[allow(clippy::needless_range_loop)]
+mod clusters;
 mod features;
+mod leaf;
+mod regions;
+mod space;
+mod split;
 
 use super::Solid;
 use super::columns::Columns;
@@ -35,7 +37,7 @@ pub(super) fn signed_distance(solid: &Solid, run: &Run) -> Result<Vec<f32>> {
                     solid.memory_limit()
                 )));
             }
-            of_mesh(mesh, solid.grid(), run)?
+            of_mesh(solid.body(), mesh, solid.grid(), run)?
         }
         Body::Voxels(_) => cells::signed_distance(solid.inside(), solid.grid(), run)?,
     };
@@ -43,26 +45,25 @@ pub(super) fn signed_distance(solid: &Solid, run: &Run) -> Result<Vec<f32>> {
 }
 
 /// The field of a mesh: distances brick by brick, then the sign along rows of cell centres.
-fn of_mesh(mesh: &Mesh, grid: &Grid, run: &Run) -> Result<Vec<f32>> {
+fn of_mesh(body: &Body, mesh: &Mesh, grid: &Grid, run: &Run) -> Result<Vec<f32>> {
     run.check(0.0, "making the distance field")?;
     let mut out = filled("the distance field", grid.len(), 0.0f32)?;
     if out.is_empty() {
         return Ok(out);
     }
     bricks::distances(mesh, grid, run, &mut out)?;
-    sign(mesh, grid, run, &mut out)?;
+    sign(body, grid, run, &mut out)?;
     let bytes = 4 * grid.len() as u64 + features::bytes(mesh.faces.len());
     run.count(|c| c.peak_bytes = c.peak_bytes.max(bytes));
     Ok(out)
 }
 
 /// Turns the distances of cell centres inside to negative ones.
-fn sign(mesh: &Mesh, grid: &Grid, run: &Run, out: &mut [f32]) -> Result<()> {
+fn sign(body: &Body, grid: &Grid, run: &Run, out: &mut [f32]) -> Result<()> {
     let [nx, ny, nz] = grid.dims;
-    let body = Body::Mesh(mesh.clone());
     let (origin, step) = (grid.origin, grid.spacing);
     let columns =
-        Columns::new(&body, 0, [ny, nz], [origin.y, origin.z], [step.y, step.z], run.pool())?;
+        Columns::new(body, 0, [ny, nz], [origin.y, origin.z], [step.y, step.z], run.pool())?;
     run.pool().chunks_mut(out, nx, |row, out| {
         for &[lo, hi] in columns.column(row % ny, row / ny) {
             // First centre at or after a place; the guess is a rounding off at most.
