@@ -22,12 +22,16 @@ fn shapes() -> Vec<(String, Shape)> {
     let run = Run::serial();
     let o = ImportOptions::default();
     let mut out = Vec::new();
-    for (name, segments) in [("torus", 220), ("stone", 220)] {
+    for (name, segments) in [("torus", 274), ("stone", 247)] {
         let p = Primitive::from_name(name).unwrap();
         out.push((name.to_string(), Shape::from_primitive(&p, segments, &o, &run).unwrap()));
     }
     if let Ok(data) = std::env::var("MORULA_DATA") {
-        for name in ["classic/armadillo.obj", "classic/bunny.obj"] {
+        for name in [
+            "particles/stone/stone_10.stl",
+            "particles/stone/stone_20.stl",
+            "classic/armadillo.obj",
+        ] {
             let path = std::path::Path::new(&data).join(name);
             let shape = Shape::from_file(&path, &FileOptions::default(), &run);
             out.extend(shape.ok().map(|s| (name.to_string(), s)));

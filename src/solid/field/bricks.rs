@@ -18,7 +18,7 @@ use crate::shape::Mesh;
 use crate::solid::grid::Grid;
 
 /// Cells along the edge of the bricks that are shared out to threads.
-const SHARE: usize = 40;
+const SHARE: usize = 32;
 /// More cuts than such a brick needs.
 const DEPTH: usize = 8;
 

@@ -55,12 +55,12 @@ impl Points {
 
 /// What can be nearest.
 pub(super) trait Feature {
-    /// Of each point, how deep any point of a brick of this half extent about it may lie in the
+    /// Of each point, how deep any point of a brick of these half extents about it may lie in the
     /// region's worst half-space: less than 0 when the brick misses the region.
-    fn touches(&self, x: &Points, half: f32) -> Lanes;
+    fn touches(&self, x: &Points, half: [f32; 3]) -> Lanes;
     /// The same, and `bound`.
     #[inline(always)]
-    fn touches_within(&self, x: &Points, half: f32) -> (Lanes, Lanes) {
+    fn touches_within(&self, x: &Points, half: [f32; 3]) -> (Lanes, Lanes) {
         (self.touches(x, half), self.bound(x))
     }
     /// The squared distances of points that lie in the region; FAR of others.
@@ -112,11 +112,11 @@ impl Four {
         [cast([a, f]), cast([b, g]), cast([d, h]), cast([e, i])]
     }
 
-    /// How far a brick of this half extent reaches across each, and the slack.
+    /// How far a brick of these half extents reaches across each, and the slack.
     #[inline(always)]
-    fn reach(&self, half: f32) -> f32x4 {
+    fn reach(&self, half: [f32; 3]) -> f32x4 {
         let [x, y, z] = self.n;
-        (x.abs() + y.abs() + z.abs()) * half + SLACK
+        x.abs() * half[0] + y.abs() * half[1] + (z.abs() * half[2] + SLACK)
     }
 
     /// The normal of the last.
@@ -148,13 +148,13 @@ impl Face {
 
 impl Feature for Face {
     #[inline(always)]
-    fn touches(&self, x: &Points, half: f32) -> Lanes {
+    fn touches(&self, x: &Points, half: [f32; 3]) -> Lanes {
         let [a, b, c, _] = self.planes.heights(x, self.planes.reach(half));
         a.fast_min(b).fast_min(c)
     }
 
     #[inline(always)]
-    fn touches_within(&self, x: &Points, half: f32) -> (Lanes, Lanes) {
+    fn touches_within(&self, x: &Points, half: [f32; 3]) -> (Lanes, Lanes) {
         let reach = self.planes.reach(half);
         let [a, b, c, h] = self.planes.heights(x, reach);
         let h = h - reach.as_array()[3];
@@ -219,7 +219,7 @@ impl Edge {
 
 impl Feature for Edge {
     #[inline(always)]
-    fn touches(&self, x: &Points, half: f32) -> Lanes {
+    fn touches(&self, x: &Points, half: [f32; 3]) -> Lanes {
         let reach = self.planes.reach(half);
         let [a, b, c, t] = self.planes.heights(x, reach);
         let end = self.length + 2.0 * reach.as_array()[3];
@@ -265,7 +265,7 @@ impl Corner {
 
 impl Feature for Corner {
     #[inline(always)]
-    fn touches(&self, x: &Points, half: f32) -> Lanes {
+    fn touches(&self, x: &Points, half: [f32; 3]) -> Lanes {
         let [a, b, c, d] = self.planes.heights(x, self.planes.reach(half));
         a.fast_min(b).fast_min(c.fast_min(d))
     }

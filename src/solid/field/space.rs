@@ -27,17 +27,13 @@ impl Brick {
         self.size().contains(&0)
     }
 
-    /// Its eight parts, x fastest; some may be empty. Cut where both sides are whole numbers
-    /// of bricks of 8 cells, or of 4, or of 2.
+    /// Its eight parts, x fastest; some may be empty. The first is a cube of 2, 4, 8, 16 … cells
+    /// where there are as many; the longest edge leaves something for the others.
     pub(super) fn parts(&self) -> [Brick; 8] {
-        let unit = match self.longest() {
-            9.. => 8,
-            5.. => 4,
-            _ => 2,
-        };
         let mut parts = [*self; 8];
+        let cube = (self.longest().next_power_of_two() / 2).max(2);
         for (a, n) in self.size().into_iter().enumerate() {
-            let cut = self.lo[a] + n.min(n.div_ceil(unit).div_ceil(2) * unit);
+            let cut = self.lo[a] + n.min(cube);
             for (k, part) in parts.iter_mut().enumerate() {
                 if k >> a & 1 == 0 {
                     part.hi[a] = cut;
@@ -55,9 +51,9 @@ pub(super) struct Parts {
     pub bricks: [Brick; 8],
     /// Bits of the parts that are not empty.
     pub there: u8,
-    /// Of the cell centres in each part: the middle, and the greatest half extent of any.
+    /// Of the cell centres in each part: the middle, and the greatest half extents of any.
     pub middle: Points,
-    pub half: f32,
+    pub half: [f32; 3],
 }
 
 /// Places of cell centres along each axis, in shortest cell edges from the grid's origin.
@@ -101,12 +97,12 @@ impl Space {
 
     pub(super) fn parts(&self, brick: &Brick) -> Parts {
         let bricks = brick.parts();
-        let (mut middle, mut half) = ([[0.0f32; 2]; 3], 0.0f32);
+        let (mut middle, mut half) = ([[0.0f32; 2]; 3], [0.0f32; 3]);
         for (a, middle) in middle.iter_mut().enumerate() {
             for (side, part) in [bricks[0], bricks[7]].iter().enumerate() {
                 let [lo, hi] = self.ends(a, part.lo[a], part.hi[a]);
                 middle[side] = 0.5 * (lo + hi);
-                half = half.max(0.5 * (hi - lo));
+                half[a] = half[a].max(0.5 * (hi - lo));
             }
         }
         let mut there = 0;
