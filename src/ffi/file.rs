@@ -1,5 +1,6 @@
 //! Shapes from files and from the bytes of files.
 
+#[cfg(feature = "io")]
 use super::choices::*;
 use super::guard::{guard, require, slice, text};
 use super::options::init;
