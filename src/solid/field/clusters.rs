@@ -1,7 +1,7 @@
 //! Features that lie together, for bricks much larger than they are.
 
 use super::features::{Triangle, WHAT};
-use super::regions::{SLACK, single};
+use super::regions::single;
 use crate::error::{Result, reserve};
 use crate::math::Vec3;
 use std::ops::Range;
@@ -26,6 +26,7 @@ pub(super) fn clusters(
     faces: &[Triangle],
     edges: &[[u32; 2]],
     corners: &[u32],
+    round: f32,
 ) -> Result<Vec<Cluster>> {
     let mut out = reserve(WHAT, points.len() / TOGETHER + 1)?;
     let (mut faces, mut edges, mut corners) =
@@ -47,7 +48,7 @@ pub(super) fn clusters(
             corners: corner_range,
             center: single(&center),
             // And what rounding to f32 moves.
-            radius: radius as f32 + SLACK,
+            radius: radius as f32 + round,
         });
     }
     Ok(out)

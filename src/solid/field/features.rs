@@ -2,7 +2,8 @@
 //! to each other in memory.
 
 use super::clusters::{Cluster, clusters};
-use super::regions::{Corner, Edge, Face, double};
+use super::regions::{Corner, Edge, Face, double, rounding};
+use super::space::longest;
 use crate::error::{Result, filled, reserve};
 use crate::math::Vec3;
 use crate::shape::Mesh;
@@ -56,12 +57,13 @@ impl Features {
     pub(super) fn new(mesh: &Mesh, grid: &Grid, unit: f64) -> Result<Features> {
         let (points, list) = by_place(mesh, grid, unit)?;
         let n = list.len();
+        let round = rounding(longest(grid, unit));
         let (mut faces, mut triangles) = (reserve(WHAT, n)?, reserve(WHAT, n)?);
-        let mut away: Vec<[Option<Vec3>; 3]> = reserve(WHAT, n)?;
+        let mut away: Vec<Ways> = reserve(WHAT, n)?;
         let mut sides: Vec<Side> = reserve(WHAT, n.saturating_mul(3))?;
         for (i, f) in list.iter().enumerate() {
             let t = f.map(|v| points[v as usize]);
-            let (face, ways) = face(&t);
+            let (face, ways) = face(&t, f64::from(round));
             for k in 0..3 {
                 let (a, b) = (f[k], f[(k + 1) % 3]);
                 if a != b {
@@ -83,7 +85,7 @@ impl Features {
             if length > 1e-9 {
                 let along = (b - a) / length;
                 ends.push(End { ends: group[0].ends, along });
-                let way = |s: &Side| away[s.of as usize / 3][s.of as usize % 3];
+                let way = |s: &Side| away[s.of as usize / 3].of(s.of as usize % 3);
                 let ways = [way(&group[0]), group.get(1).and_then(way)];
                 if let Some(beyond) = beyond(&ways) {
                     edges.push(Edge::new(beyond, a, along, length));
@@ -92,7 +94,7 @@ impl Features {
             }
         }
         let (corners, at) = corners(&points, &ends)?;
-        let clusters = clusters(&points, &list, &named, &at)?;
+        let clusters = clusters(&points, &list, &named, &at, round)?;
         Ok(Features { faces, edges, corners, triangles, clusters })
     }
 
@@ -150,35 +152,58 @@ fn spread(x: u32) -> u32 {
     (x | x << 2) & 0x0924_9249
 }
 
+/// The unit vectors in a face away from its sides, or none; and whether a corner is sharp.
+#[derive(Debug, Clone, Copy)]
+struct Ways {
+    away: Option<[Vec3; 3]>,
+    sharp: bool,
+}
+
+impl Ways {
+    fn of(&self, side: usize) -> Option<(Vec3, bool)> {
+        self.away.map(|away| (away[side], self.sharp))
+    }
+}
+
 /// Normals beyond two faces at an edge, and the one between them, which holds what they both
-/// hold. None when the faces are flat there: their prisms meet.
-fn beyond(away: &[Option<Vec3>; 2]) -> Option<[Vec3; 3]> {
-    let one = |n: &Option<Vec3>| n.unwrap_or_default();
+/// hold. None when the faces are flat there: their prisms meet, unless one is narrowed.
+fn beyond(away: &[Option<(Vec3, bool)>; 2]) -> Option<[Vec3; 3]> {
+    let one = |n: &Option<(Vec3, bool)>| n.map_or(Vec3::zeros(), |n| n.0);
     let mut front = Vec3::zeros();
-    if let [Some(a), Some(b)] = away {
+    if let [Some((a, sharp)), Some((b, other))] = away {
         let sum = a + b;
         let length = sum.norm();
-        if length < 1e-6 {
+        if length >= 1e-6 {
+            front = sum / length;
+        } else if !sharp && !other {
             return None;
         }
-        front = sum / length;
     }
     Some([one(&away[0]), one(&away[1]), front])
 }
 
-/// A face and the unit vectors away from its sides. One without area has no prism (its edges
-/// stand for it) and no sides.
-fn face(t: &[Vec3; 3]) -> (Face, [Option<Vec3>; 3]) {
+/// How far a prism may reach beyond a corner of its face by what rounding allows at the sides.
+const OVERRUN: f64 = 0.005;
+
+/// A face and the ways from its sides. One without area has no prism (its edges stand for it)
+/// and no sides. The prism of one with a sharp corner, which it would overrun, ends within the
+/// face: what lies over the rim is left to the edges.
+fn face(t: &[Vec3; 3], round: f64) -> (Face, Ways) {
     let edges = [t[1] - t[0], t[2] - t[1], t[0] - t[2]];
     let longest2 = edges.iter().map(|e| e.norm_squared()).fold(0.0, f64::max);
     let cross = edges[0].cross(&edges[1]);
     if longest2 < 1e-200 || cross.norm_squared() <= 1e-24 * longest2 * longest2 {
-        return (Face::none(), [None; 3]);
+        return (Face::none(), Ways { away: None, sharp: true });
     }
     let n = cross.normalize();
     let [a, b, c] = edges.map(|e| n.cross(&e).normalize());
-    let face = Face::new([(a, t[0]), (b, t[1]), (c, t[2]), (n, t[0])]);
-    (face, [a, b, c].map(|m| Some(-m)))
+    // The half angle at a corner, from the normals of its sides: |a + c| = 2 sin(θ/2).
+    let sharpest = (a + c).norm().min((a + b).norm()).min((b + c).norm()) * 0.5;
+    let sharp = round > OVERRUN * sharpest;
+    let within = if sharp { 2.0 * round } else { 0.0 };
+    let at = |n: &Vec3, v: &Vec3| (*n, v + n * within);
+    let face = Face::new([at(&a, &t[0]), at(&b, &t[1]), at(&c, &t[2]), (n, t[0])]);
+    (face, Ways { away: Some([-a, -b, -c]), sharp })
 }
 
 /// The corners, each with some of the edges that meet there; and their vertices.

@@ -17,9 +17,11 @@ pub(super) const LANES: usize = 8;
 pub(super) type Lanes = f32x8;
 /// No distance.
 pub(super) const FAR: f32 = 1e15;
-/// Points this far out of a region count as in it (in cells): more than the rounding of
-/// coordinates up to 4096 in f32, less than anyone sees.
-pub(super) const SLACK: f32 = 1e-3;
+/// What rounding moves a place by, at most, in a grid of so many cells along its longest edge:
+/// some units of f32 in the last place.
+pub(super) fn rounding(cells: usize) -> f32 {
+    (cells as f32 * 1.5e-6).max(1e-4)
+}
 
 /// The corners of a box, x fastest: what two places along each axis make.
 #[derive(Debug, Clone, Copy, Default)]
@@ -30,12 +32,14 @@ pub(super) struct Points {
     /// The first corner, and the steps from it along the axes.
     low: [f32x4; 3],
     step: [f32x4; 3],
+    /// Points this far out of a face's prism count as in it: what rounding moves.
+    round: f32,
 }
 
 impl Points {
     /// From the two places along x, y and z.
     #[inline(always)]
-    pub(super) fn new(x: [f32; 2], y: [f32; 2], z: [f32; 2]) -> Points {
+    pub(super) fn new([x, y, z]: [[f32; 2]; 3], round: f32) -> Points {
         let ([a, b], [c, d], [e, f]) = (x, y, z);
         Points {
             x: Lanes::new([a, b, a, b, a, b, a, b]),
@@ -43,7 +47,14 @@ impl Points {
             z: Lanes::new([e, e, e, e, f, f, f, f]),
             low: [f32x4::splat(a), f32x4::splat(c), f32x4::splat(e)],
             step: [f32x4::splat(b - a), f32x4::splat(d - c), f32x4::splat(f - e)],
+            round,
         }
+    }
+
+    /// Points this far out of a region may still be nearest to what it belongs to.
+    #[inline(always)]
+    pub(super) fn slack(&self) -> f32 {
+        4.0 * self.round
     }
 
     /// The ways to the points from `p`.
@@ -77,10 +88,10 @@ pub(super) fn bits(lanes: Lanes) -> u8 {
     !(lanes.to_bitmask() as u8)
 }
 
-/// Of some lanes, those of points that lie in the region; FAR elsewhere.
+/// Of some lanes, those of points that lie in the region; at least FAR elsewhere.
 #[inline(always)]
-fn only(depth: Lanes, lanes: Lanes) -> Lanes {
-    depth.simd_ge(Lanes::splat(-SLACK)).select(lanes, Lanes::splat(FAR))
+fn only(depth: Lanes, lanes: Lanes, round: f32) -> Lanes {
+    lanes + (depth.simd_lt(Lanes::splat(-round)) & Lanes::splat(FAR))
 }
 
 /// Four half-spaces `n·x + o ≥ 0`, n of unit length, side by side.
@@ -114,9 +125,9 @@ impl Four {
 
     /// How far a brick of these half extents reaches across each, and the slack.
     #[inline(always)]
-    fn reach(&self, half: [f32; 3]) -> f32x4 {
+    fn reach(&self, half: [f32; 3], slack: f32) -> f32x4 {
         let [x, y, z] = self.n;
-        x.abs() * half[0] + y.abs() * half[1] + (z.abs() * half[2] + SLACK)
+        x.abs() * half[0] + y.abs() * half[1] + (z.abs() * half[2] + slack)
     }
 
     /// The normal of the last.
@@ -149,13 +160,13 @@ impl Face {
 impl Feature for Face {
     #[inline(always)]
     fn touches(&self, x: &Points, half: [f32; 3]) -> Lanes {
-        let [a, b, c, _] = self.planes.heights(x, self.planes.reach(half));
+        let [a, b, c, _] = self.planes.heights(x, self.planes.reach(half, x.slack()));
         a.fast_min(b).fast_min(c)
     }
 
     #[inline(always)]
     fn touches_within(&self, x: &Points, half: [f32; 3]) -> (Lanes, Lanes) {
-        let reach = self.planes.reach(half);
+        let reach = self.planes.reach(half, x.slack());
         let [a, b, c, h] = self.planes.heights(x, reach);
         let h = h - reach.as_array()[3];
         (a.fast_min(b).fast_min(c), h * h)
@@ -164,7 +175,7 @@ impl Feature for Face {
     #[inline(always)]
     fn within(&self, x: &Points) -> Lanes {
         let [a, b, c, h] = self.planes.heights(x, f32x4::ZERO);
-        only(a.fast_min(b).fast_min(c), h * h)
+        only(a.fast_min(b).fast_min(c), h * h, x.round)
     }
 
     #[inline(always)]
@@ -220,7 +231,7 @@ impl Edge {
 impl Feature for Edge {
     #[inline(always)]
     fn touches(&self, x: &Points, half: [f32; 3]) -> Lanes {
-        let reach = self.planes.reach(half);
+        let reach = self.planes.reach(half, x.slack());
         let [a, b, c, t] = self.planes.heights(x, reach);
         let end = self.length + 2.0 * reach.as_array()[3];
         a.fast_min(b).fast_min(c).fast_min(t).fast_min(-t + end)
@@ -230,7 +241,7 @@ impl Feature for Edge {
     fn within(&self, x: &Points) -> Lanes {
         let [a, b, c, t] = self.planes.heights(x, f32x4::ZERO);
         let depth = a.fast_min(b).fast_min(c).fast_min(t).fast_min(-t + self.length);
-        only(depth, self.squared(x.from(&self.start), t))
+        only(depth, self.squared(x.from(&self.start), t), x.round)
     }
 
     #[inline(always)]
@@ -266,14 +277,14 @@ impl Corner {
 impl Feature for Corner {
     #[inline(always)]
     fn touches(&self, x: &Points, half: [f32; 3]) -> Lanes {
-        let [a, b, c, d] = self.planes.heights(x, self.planes.reach(half));
+        let [a, b, c, d] = self.planes.heights(x, self.planes.reach(half, x.slack()));
         a.fast_min(b).fast_min(c.fast_min(d))
     }
 
     #[inline(always)]
     fn within(&self, x: &Points) -> Lanes {
         let [a, b, c, d] = self.planes.heights(x, f32x4::ZERO);
-        only(a.fast_min(b).fast_min(c.fast_min(d)), from_point(&self.at, x))
+        only(a.fast_min(b).fast_min(c.fast_min(d)), from_point(&self.at, x), x.round)
     }
 
     #[inline(always)]

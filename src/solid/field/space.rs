@@ -1,6 +1,6 @@
 //! Bricks of cells and where their cell centres lie.
 
-use super::regions::Points;
+use super::regions::{Points, rounding};
 use crate::error::{Result, reserve};
 use crate::math::Vec3;
 use crate::solid::grid::Grid;
@@ -59,6 +59,7 @@ pub(super) struct Parts {
 /// Places of cell centres along each axis, in shortest cell edges from the grid's origin.
 pub(super) struct Space {
     at: [Vec<f32>; 3],
+    round: f32,
 }
 
 impl Space {
@@ -69,7 +70,7 @@ impl Space {
             *at = reserve("the places of cells", grid.dims[a])?;
             at.extend((0..grid.dims[a]).map(|i| ((i as f64 + 0.5) * step) as f32));
         }
-        Ok(Space { at })
+        Ok(Space { at, round: rounding(longest(grid, unit)) })
     }
 
     /// First and last place of cells `lo..hi` along an axis; of none, any.
@@ -83,7 +84,7 @@ impl Space {
     #[inline(always)]
     pub(super) fn corners(&self, b: &Brick) -> Points {
         let ends = |a: usize| self.ends(a, b.lo[a], b.hi[a]);
-        Points::new(ends(0), ends(1), ends(2))
+        Points::new([ends(0), ends(1), ends(2)], self.round)
     }
 
     /// The middle of the cell centres.
@@ -109,7 +110,12 @@ impl Space {
         for (k, part) in bricks.iter().enumerate() {
             there |= u8::from(!part.is_empty()) << k;
         }
-        let [x, y, z] = middle;
-        Parts { bricks, there, middle: Points::new(x, y, z), half }
+        Parts { bricks, there, middle: Points::new(middle, self.round), half }
     }
+}
+
+/// Cells of the shortest edge along the grid's longest one.
+pub(super) fn longest(grid: &Grid, unit: f64) -> usize {
+    let edge = |a: usize| (grid.dims[a] as f64 * grid.spacing[a] / unit).ceil() as usize;
+    edge(0).max(edge(1)).max(edge(2))
 }

@@ -62,7 +62,7 @@ impl Limits {
         for (k, part) in parts.bricks.iter().enumerate() {
             limits.corners[k] = space.corners(part);
             let w = regions::single(&witnesses[k]);
-            let near = regions::from_point(&w, &limits.corners[k]).sqrt() + regions::SLACK;
+            let near = regions::from_point(&w, &limits.corners[k]).sqrt() + parts.middle.slack();
             limits.near[k] = near;
             limits.squared[k] = near * near;
         }
