@@ -126,6 +126,53 @@ fn a_tetrahedron_with_large_faces_is_exact_in_every_cell() {
     check("tetrahedron", &shape, 30, 1);
 }
 
+/// A box whose top has slivers with their tips on the rim, along planes of cell centres: a
+/// prism with slack runs far beyond a sharp tip. Every cell.
+#[test]
+fn slivers_do_not_reach_beyond_their_tips() {
+    for width in [0.003, 0.0003, 0.00003] {
+        // Corners of the box, 31 cells long; the tip T on the rim of the top; A and B within it.
+        let (l, w) = (31.0, 11.0);
+        let v: Vec<[f64; 3]> = vec![
+            [0.0, 0.0, 0.0],
+            [l, 0.0, 0.0],
+            [l, w, 0.0],
+            [0.0, w, 0.0],
+            [0.0, 0.0, w],
+            [l, 0.0, w],
+            [l, w, w],
+            [0.0, w, w],
+            [0.0, 5.5, w],
+            [30.0, 5.5, w],
+            [30.0, 5.5 + width, w],
+        ];
+        let f: Vec<[u32; 3]> = vec![
+            [0, 2, 1],
+            [0, 3, 2],
+            [0, 1, 5],
+            [0, 5, 4],
+            [1, 2, 6],
+            [1, 6, 5],
+            [2, 3, 7],
+            [2, 7, 6],
+            [0, 4, 8],
+            [0, 8, 3],
+            [3, 8, 7],
+            [8, 9, 10],
+            [8, 4, 9],
+            [4, 5, 9],
+            [5, 10, 9],
+            [5, 6, 10],
+            [6, 7, 10],
+            [7, 8, 10],
+        ];
+        let options = ImportOptions { weld_tolerance: 0.0, ..any_body() };
+        let shape = Shape::from_mesh(&v, &f, &options, &Run::serial()).unwrap();
+        assert_eq!(shape.report.faces, 18, "{width}");
+        check(&format!("sliver of {width}"), &shape, 31, 1);
+    }
+}
+
 /// A box with a face left out, two boxes across each other, a box within a box: defective or
 /// not simply nested, the sign is that of the winding number.
 #[test]
