@@ -21,7 +21,7 @@ fn cuboid(lo: [f64; 3], hi: [f64; 3]) -> Mesh {
     mesh(&vertices, &faces)
 }
 
-/// A surface of revolution about z, closed over both angles (torus) or from pole to pole (sphere).
+/// A ring about an axis parallel to z.
 fn torus(major: f64, minor: f64, n: usize) -> Mesh {
     let mut v = Vec::new();
     let mut f = Vec::new();
@@ -39,30 +39,8 @@ fn torus(major: f64, minor: f64, n: usize) -> Mesh {
 }
 
 fn sphere(radius: f64, n: usize) -> Mesh {
-    let mut v = vec![[0.5, 0.5, 0.5 - radius]];
-    for j in 1..n {
-        for i in 0..2 * n {
-            let (s, t) = (PI * i as f64 / n as f64, PI * j as f64 / n as f64);
-            v.push([
-                0.5 + radius * t.sin() * s.cos(),
-                0.5 + radius * t.sin() * s.sin(),
-                0.5 - radius * t.cos(),
-            ]);
-        }
-    }
-    v.push([0.5, 0.5, 0.5 + radius]);
-    let top = v.len() as u32 - 1;
-    let at = |j: usize, i: usize| (1 + (j - 1) * 2 * n + i % (2 * n)) as u32;
-    let mut f = Vec::new();
-    for i in 0..2 * n {
-        f.push([0, at(1, i + 1), at(1, i)]);
-        f.push([top, at(n - 1, i), at(n - 1, i + 1)]);
-        for j in 1..n - 1 {
-            f.push([at(j, i), at(j, i + 1), at(j + 1, i + 1)]);
-            f.push([at(j, i), at(j + 1, i + 1), at(j + 1, i)]);
-        }
-    }
-    mesh(&v, &f)
+    let (vertices, faces) = common::sphere(n, 2 * n, radius, [0.5; 3]);
+    mesh(&vertices, &faces)
 }
 
 fn signed_volume(m: &Mesh) -> f64 {

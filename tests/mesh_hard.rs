@@ -5,52 +5,13 @@
 
 mod common;
 
-use common::{Arrays, cuboid};
+use common::{Arrays, add, cuboid, soup, sphere, turned};
 use morula::shape::{Bodies, ImportOptions};
 use morula::{Error, Run, Shape};
 
 fn import(m: &Arrays) -> Result<Shape, Error> {
     let options = ImportOptions { bodies: Bodies::All, ..ImportOptions::default() };
     Shape::from_mesh(&m.0, &m.1, &options, &Run::serial())
-}
-
-/// A sphere of radius 1 about `at`, poles at the ends.
-fn sphere(rings: usize, segments: usize, radius: f64, at: [f64; 3]) -> Arrays {
-    use std::f64::consts::PI;
-    let mut v = vec![[0.0, 0.0, 1.0]];
-    for i in 1..rings {
-        let t = PI * i as f64 / rings as f64;
-        for j in 0..segments {
-            let p = 2.0 * PI * j as f64 / segments as f64;
-            v.push([t.sin() * p.cos(), t.sin() * p.sin(), t.cos()]);
-        }
-    }
-    v.push([0.0, 0.0, -1.0]);
-    v.iter_mut().for_each(|v| *v = [0, 1, 2].map(|k| at[k] + radius * v[k]));
-    let at = |i: usize, j: usize| (1 + (i - 1) * segments + j % segments) as u32;
-    let last = v.len() as u32 - 1;
-    let mut f = Vec::new();
-    for j in 0..segments {
-        f.push([0, at(1, j), at(1, j + 1)]);
-        for i in 1..rings - 1 {
-            f.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
-            f.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
-        }
-        f.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
-    }
-    (v, f)
-}
-
-fn soup(m: &Arrays) -> Arrays {
-    let v: Vec<_> = m.1.iter().flatten().map(|&i| m.0[i as usize]).collect();
-    let f = (0..m.1.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-    (v, f)
-}
-
-fn add(m: &mut Arrays, (v, f): &Arrays) {
-    let base = m.0.len() as u32;
-    m.0.extend(v);
-    m.1.extend(f.iter().map(|f| f.map(|i| i + base)));
 }
 
 fn tetrahedron(at: [f64; 3], edge: f64) -> Arrays {
@@ -169,9 +130,7 @@ fn many_parts_at_one_edge_and_in_one_part() {
     for i in 0..24_i32.pow(3) {
         let at = [i % 24, i / 24 % 24, i / 576].map(|k| f64::from(k - 12) * 0.08);
         if at.iter().map(|x| x * x).sum::<f64>() < 0.75 {
-            let (v, mut f) = tetrahedron(at, 0.03);
-            f.iter_mut().for_each(|f| f.swap(0, 1));
-            add(&mut m, &(v, f));
+            add(&mut m, &turned(tetrahedron(at, 0.03)));
             count += 1;
         }
     }

@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::{cuboid, join, turned};
 use morula::math::{Sphere, Vec3};
 use morula::measure::{Quality, QualityOptions, quality};
 use morula::shape::{ImportOptions, Primitive};
@@ -96,36 +99,10 @@ fn protrusion_misses_no_sphere() {
     assert!((q.protrusion - 0.002).abs() < 1.1e-4, "{}", q.protrusion);
 }
 
-/// A box (corners counted x fastest, faces outward), or a cavity of that form.
-fn cuboid(lo: [f64; 3], hi: [f64; 3], inward: bool, mesh: &mut (Vec<[f64; 3]>, Vec<[u32; 3]>)) {
-    let first = mesh.0.len() as u32;
-    for c in 0..8 {
-        mesh.0.push([0, 1, 2].map(|a| if c >> a & 1 == 1 { hi[a] } else { lo[a] }));
-    }
-    for f in [
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ] {
-        let [a, b, c] = f.map(|v| v + first);
-        mesh.1.push(if inward { [a, c, b] } else { [a, b, c] });
-    }
-}
-
 #[test]
 fn a_ball_that_fills_a_cavity_protrudes() {
-    let mut mesh = (Vec::new(), Vec::new());
-    cuboid([-2.0; 3], [2.0; 3], false, &mut mesh);
-    cuboid([0.4, -0.3, -0.3], [1.0, 0.3, 0.3], true, &mut mesh);
+    let cavity = turned(cuboid([0.4, -0.3, -0.3], [1.0, 0.3, 0.3]));
+    let mesh = join(&[cuboid([-2.0; 3], [2.0; 3]), cavity]);
     let run = Run::serial();
     let shape = Shape::from_mesh(&mesh.0, &mesh.1, &ImportOptions::default(), &run).unwrap();
     let hollow = Solid::new(&shape, &SolidOptions::default(), &run).unwrap();

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used)]
 
+mod common;
+
 use morula::math::Vec3;
 use morula::shape::{Bodies, Body, ImportOptions, Layout, Primitive};
 use morula::solid::{Resolution, SolidOptions};
@@ -230,27 +232,9 @@ fn thin_shapes_get_enough_cells_and_say_so() {
         assert!(s.notes().iter().any(|n| n.contains("thin")), "{:?}", s.notes());
     }
     // The box of a plate on its corner is not thin; the plate is.
-    let mut v = Vec::new();
+    let (mut v, f) = common::cuboid([0.0; 3], [1.0, 1.0, 0.02]);
     let r = nalgebra::Rotation3::from_euler_angles(0.4, 0.7, 0.3);
-    for c in 0..8 {
-        let at = [c & 1, c >> 1 & 1, c >> 2].map(f64::from);
-        let p = r * Vec3::new(at[0], at[1], 0.02 * at[2]);
-        v.push([p.x, p.y, p.z]);
-    }
-    let f = [
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ];
+    v.iter_mut().for_each(|p| *p = (r * Vec3::from(*p)).into());
     let s = solid(&mesh(&v, &f), Resolution::CellsLongest(32));
     assert!(s.notes().iter().any(|n| n.contains("thin")), "{:?}", s.notes());
     let volume = cells_in(&s) as f64 * s.grid().spacing.product();

@@ -4,6 +4,7 @@
 
 pub mod c_header;
 
+use std::f64::consts::PI;
 use std::path::PathBuf;
 
 /// Vertices and triangles.
@@ -22,6 +23,59 @@ pub fn cuboid(lo: [f64; 3], hi: [f64; 3]) -> Arrays {
 /// A cube with its lower corner at `at`.
 pub fn cube(at: [f64; 3], edge: f64) -> Arrays {
     cuboid(at, at.map(|x| x + edge))
+}
+
+/// A sphere about `at`, poles at its ends along z, triangles counter-clockwise seen from outside.
+pub fn sphere(rings: usize, segments: usize, radius: f64, at: [f64; 3]) -> Arrays {
+    let mut v = vec![[0.0, 0.0, 1.0]];
+    for i in 1..rings {
+        let t = PI * i as f64 / rings as f64;
+        for j in 0..segments {
+            let p = 2.0 * PI * j as f64 / segments as f64;
+            v.push([t.sin() * p.cos(), t.sin() * p.sin(), t.cos()]);
+        }
+    }
+    v.push([0.0, 0.0, -1.0]);
+    v.iter_mut().for_each(|v| *v = [0, 1, 2].map(|k| at[k] + radius * v[k]));
+    let at = |i: usize, j: usize| (1 + (i - 1) * segments + j % segments) as u32;
+    let last = v.len() as u32 - 1;
+    let mut f = Vec::new();
+    for j in 0..segments {
+        f.push([0, at(1, j), at(1, j + 1)]);
+        for i in 1..rings - 1 {
+            f.push([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            f.push([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+        }
+        f.push([last, at(rings - 1, j + 1), at(rings - 1, j)]);
+    }
+    (v, f)
+}
+
+/// Every face with corners of its own, as STL has them.
+pub fn soup(m: &Arrays) -> Arrays {
+    let v: Vec<_> = m.1.iter().flatten().map(|&i| m.0[i as usize]).collect();
+    let f = (0..m.1.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    (v, f)
+}
+
+/// Inside out.
+pub fn turned(mut m: Arrays) -> Arrays {
+    m.1.iter_mut().for_each(|f| f.swap(1, 2));
+    m
+}
+
+/// Adds a part to a mesh.
+pub fn add(m: &mut Arrays, (v, f): &Arrays) {
+    let base = m.0.len() as u32;
+    m.0.extend(v);
+    m.1.extend(f.iter().map(|f| f.map(|i| i + base)));
+}
+
+/// One mesh of several parts.
+pub fn join(parts: &[Arrays]) -> Arrays {
+    let mut all = (Vec::new(), Vec::new());
+    parts.iter().for_each(|part| add(&mut all, part));
+    all
 }
 
 /// The folder of third-party data, where there is one; says when there is none.
