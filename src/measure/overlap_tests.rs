@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::run::Pool;
-use crate::shape::Mesh;
+use crate::shape::{Mesh, samples};
 use crate::solid::columns::Columns;
 use std::f64::consts::PI;
 
@@ -14,27 +14,6 @@ fn cap_lens(r: f64, s: f64, d: f64) -> f64 {
         return 4.0 / 3.0 * PI * r.min(s).powi(3);
     }
     PI * (r + s - d).powi(2) * (d * d + 2.0 * d * (r + s) - 3.0 * (r - s).powi(2)) / (12.0 * d)
-}
-
-fn cuboid(lo: [f64; 3], hi: [f64; 3]) -> Mesh {
-    let vertices = (0..8)
-        .map(|i| Vec3::from([0, 1, 2].map(|k| if i >> k & 1 == 1 { hi[k] } else { lo[k] })))
-        .collect();
-    let faces = vec![
-        [0, 2, 3],
-        [0, 3, 1],
-        [4, 5, 7],
-        [4, 7, 6],
-        [0, 1, 5],
-        [0, 5, 4],
-        [2, 6, 7],
-        [2, 7, 3],
-        [0, 4, 6],
-        [0, 6, 2],
-        [1, 3, 7],
-        [1, 7, 5],
-    ];
-    Mesh { vertices, faces, clean: true }
 }
 
 fn against_spheres(target: &[Sphere], clump: &[Sphere], n: usize) -> Overlap {
@@ -62,35 +41,7 @@ fn against_box(m: Mesh, clump: &[Sphere], n: usize) -> Overlap {
 
 /// A mesh of an ellipsoid and its exact polyhedral volume.
 fn ellipsoid(axes: [f64; 3], n: usize) -> (Mesh, f64) {
-    let at = |j: usize, i: usize| {
-        let (s, t) = (PI * i as f64 / n as f64, PI * j as f64 / n as f64);
-        let p = [t.sin() * s.cos(), t.sin() * s.sin(), -t.cos()];
-        Vec3::from([0, 1, 2].map(|k| axes[k] * (1.0 + p[k])))
-    };
-    let mut m = Mesh { clean: true, ..Mesh::default() };
-    m.vertices.push(at(0, 0));
-    for j in 1..n {
-        m.vertices.extend((0..2 * n).map(|i| at(j, i)));
-    }
-    m.vertices.push(at(n, 0));
-    let top = m.vertices.len() as u32 - 1;
-    let id = |j: usize, i: usize| match j {
-        0 => 0,
-        j if j == n => top,
-        _ => (1 + (j - 1) * 2 * n + i % (2 * n)) as u32,
-    };
-    for i in 0..2 * n {
-        for j in 0..n {
-            for f in [
-                [id(j, i), id(j, i + 1), id(j + 1, i + 1)],
-                [id(j, i), id(j + 1, i + 1), id(j + 1, i)],
-            ] {
-                if f[0] != f[1] && f[1] != f[2] && f[2] != f[0] {
-                    m.faces.push(f);
-                }
-            }
-        }
-    }
+    let m = samples::ellipsoid(axes, axes, n);
     let volume = (0..m.faces.len()).map(|f| {
         let [a, b, c] = m.corners(f);
         a.dot(&b.cross(&c)) / 6.0
@@ -143,7 +94,7 @@ fn boxes_are_within_the_bound() {
             let r = 0.15 - 0.1 * (t * 0.31).fract();
             let s = Sphere::new(Vec3::from(edges.map(|e| e * 0.5)), r);
             let v = edges[0] * edges[1] * edges[2];
-            let o = against_box(cuboid([0.0; 3], edges), &[s], n);
+            let o = against_box(samples::cuboid([0.0; 3], edges), &[s], n);
             held(&o, 1.0 - 2.0 * s.volume() / (v + s.volume()), expected(n));
             // Faces parallel to the columns: no error of the first order in the step.
             assert!((o.target / v - 1.0).abs() < 2.0 / (n * n) as f64);
@@ -155,7 +106,7 @@ fn boxes_are_within_the_bound() {
 fn a_needle_is_as_exact_as_a_cube() {
     let edges = [0.02, 0.03, 1.0];
     let s = Sphere::new(Vec3::new(0.01, 0.015, 0.5), 0.009);
-    let o = against_box(cuboid([0.0; 3], edges), &[s], 64);
+    let o = against_box(samples::cuboid([0.0; 3], edges), &[s], 64);
     assert!((o.target / 6e-4 - 1.0).abs() < 1e-3, "{}", o.target / 6e-4);
 }
 

@@ -6,6 +6,8 @@ pub mod primitive;
 #[cfg(feature = "io")]
 pub mod read;
 pub mod report;
+#[cfg(test)]
+pub(crate) mod samples;
 pub mod voxels;
 
 pub use mesh::Mesh;

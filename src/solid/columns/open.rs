@@ -239,7 +239,7 @@ mod tests {
     use super::super::{Columns, Rows};
     use super::*;
     use crate::run::Pool;
-    use crate::shape::Body;
+    use crate::shape::{Body, samples};
 
     /// The winding number is asked for seldom, and the change is where it is.
     #[test]
@@ -271,38 +271,12 @@ mod tests {
         }
     }
 
-    /// A sphere of triangles without the faces that `drop` names.
+    /// A sphere without the faces whose middle `drop` names.
     fn sphere(drop: impl Fn(&Vec3) -> bool) -> Mesh {
-        let n = 16;
-        let mut m = Mesh::default();
-        for j in 0..=n {
-            for i in 0..2 * n {
-                use std::f64::consts::PI;
-                let (s, t) = (PI * i as f64 / n as f64, PI * j as f64 / n as f64);
-                let p = Vec3::new(t.sin() * s.cos(), t.sin() * s.sin(), -t.cos());
-                m.vertices.push(Vec3::repeat(0.5) + p * 0.45);
-            }
-        }
-        let id = |j: usize, i: usize| match j {
-            0 => 0,
-            j if j == n => (2 * n * n) as u32,
-            _ => (2 * n * j + i % (2 * n)) as u32,
-        };
-        for j in 0..n {
-            for i in 0..2 * n {
-                for f in [
-                    [id(j, i), id(j, i + 1), id(j + 1, i + 1)],
-                    [id(j, i), id(j + 1, i + 1), id(j + 1, i)],
-                ] {
-                    let middle: Vec3 =
-                        f.iter().map(|&v| m.vertices[v as usize]).sum::<Vec3>() / 3.0;
-                    if f[0] != f[1] && f[1] != f[2] && f[2] != f[0] && !drop(&middle) {
-                        m.faces.push(f);
-                    }
-                }
-            }
-        }
-        m
+        let mut m = samples::ellipsoid([0.5; 3], [0.45; 3], 16);
+        let vertices = &m.vertices;
+        m.faces.retain(|f| !drop(&(f.iter().map(|&v| vertices[v as usize]).sum::<Vec3>() / 3.0)));
+        Mesh { clean: false, ..m }
     }
 
     /// Both rules give the inside of the plain winding number.
