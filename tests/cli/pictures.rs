@@ -5,24 +5,15 @@ use super::*;
 #[test]
 fn pictures_have_their_size_and_show_something() {
     let folder = folder("pictures");
-    let csv = folder.join("c.csv");
-    succeeds(&strs(&clump(&["-o", text(&csv), "-q"])));
-    let png = folder.join("p.png");
-    succeeds(&[
-        "view",
-        "sample:ellipsoid",
-        text(&csv),
-        "-o",
-        text(&png),
-        "--size",
-        "600x260",
-        "--cells",
-        "24",
-        "--azimuth",
-        "-30",
-        "--elevation",
-        "40",
-    ]);
+    let draw = |of: &str, to: &str, more: &[&str]| {
+        let (of, to) = (folder.join(of), folder.join(to));
+        succeeds(&strs(&clump(&["-o", text(&of), "-q"])));
+        let view = ["view", "sample:ellipsoid", text(&of), "-o", text(&to), "--size", "600x260"];
+        let from = ["--cells", "24", "--azimuth", "-30", "--elevation", "40"];
+        succeeds(&[view.as_slice(), &from, more].concat());
+        to
+    };
+    let png = draw("c.csv", "p.png", &[]);
     let (size, pixels) = pixels(&png);
     assert_eq!(size, (600, 260));
     assert_eq!(pixels.len(), 3 * 600 * 260);
@@ -37,25 +28,6 @@ fn pictures_have_their_size_and_show_something() {
         assert!(white > 2000 && other > 2000, "third {third}: {white} white, {other} other");
     }
     // JSON clumps are drawn as well, and the same.
-    let json = folder.join("c.json");
-    succeeds(&strs(&clump(&["-o", text(&json), "-q"])));
-    let again = folder.join("again.png");
-    succeeds(&[
-        "view",
-        "sample:ellipsoid",
-        text(&json),
-        "-o",
-        text(&again),
-        "--size",
-        "600x260",
-        "--cells",
-        "24",
-        "--azimuth",
-        "-30",
-        "--elevation",
-        "40",
-        "--threads",
-        "1",
-    ]);
+    let again = draw("c.json", "again.png", &["--threads", "1"]);
     assert_eq!(std::fs::read(png).unwrap(), std::fs::read(again).unwrap());
 }

@@ -35,6 +35,12 @@ fn fails(bytes: &[u8], name: &str, status: i32, words: &str) {
     }
 }
 
+/// The error of a good file in which the first `from` is `to`.
+fn breaks(good: &str, [from, to]: [&str; 2], name: &str, status: i32, words: &str) {
+    assert!(good.contains(from), "{name}: there is no \"{from}\"");
+    fails(good.replacen(from, to, 1).as_bytes(), name, status, words);
+}
+
 const NOT_FINITE: i32 = 3;
 const INDEX: i32 = 4;
 const EMPTY: i32 = 5;
