@@ -33,15 +33,15 @@ need() {
     exit 1
 }
 
-# rust_is_new: whether cargo is at least the rust-version of Cargo.toml.
+# rust_is_new: whether cargo is at least $wanted.
 rust_is_new() {
-    wanted=$(sed -n 's/^rust-version = "\([0-9.]*\)".*/\1/p' Cargo.toml)
     present=$(cargo --version 2>/dev/null | sed -n 's/^cargo \([0-9]*\.[0-9]*\).*/\1/p')
     printf '%s.%s\n' "$present" "$wanted" | awk -F. '{ exit !($1 > $3 || ($1 == $3 && $2 >= $4)) }'
 }
 
 # need_rust: cargo cannot come from apt (too old): says where it comes from.
 need_rust() {
+    wanted=$(sed -n 's/^rust-version = "\([0-9.]*\)".*/\1/p' Cargo.toml)
     have cargo && rust_is_new && return 0
     if [ -x "${HOME:-}/.cargo/bin/cargo" ]; then
         PATH="$HOME/.cargo/bin:$PATH"
@@ -51,7 +51,7 @@ need_rust() {
     if have cargo; then
         echo "$0: $(cargo --version 2>&1 | head -n 1) is older than Rust $wanted: run rustup update (https://rustup.rs)" >&2
     else
-        echo "$0: cargo is missing: install Rust 1.89 or later (https://rustup.rs)" >&2
+        echo "$0: cargo is missing: install Rust $wanted or later (https://rustup.rs)" >&2
     fi
     exit 1
 }
