@@ -56,6 +56,34 @@ fn json_is_one_object_with_the_promised_keys() {
     assert!(inertia[3..].iter().all(|p| p.abs() < 1e-9), "{inertia:?}");
 }
 
+/// Scripts read these keys: none may go, and none comes unnoticed.
+#[test]
+fn the_keys_of_json_are_these() {
+    let figures = "n D coverage overshoot protrusion seconds stopped spheres input eta iou \
+         error_bound union_volume volume_error centroid_error moment_errors rms_distance hausdorff \
+         distance_bound roughness never_exposed plane_contacts note notes volume \
+         equivalent_diameter cells frame position quaternion stages peak_bytes";
+    let folder = folder("keys");
+    let file = folder.join("c.csv");
+    let keys = |extra: &[&str]| -> Vec<String> {
+        let v: Value = serde_json::from_str(&succeeds(&strs(&clump(extra)))).unwrap();
+        let mut keys: Vec<String> = v.as_object().unwrap().keys().cloned().collect();
+        keys.sort();
+        keys
+    };
+    let expected = |all: String| {
+        let mut all: Vec<String> = all.split_whitespace().map(str::to_string).collect();
+        all.sort();
+        all
+    };
+    assert_eq!(keys(&["--json"]), expected(figures.into()));
+    let masses = ["--json", "--density", "2"];
+    assert_eq!(keys(&masses), expected(format!("{figures} density mass centre inertia")));
+    // The spheres go where they are asked to go, once.
+    let summary = keys(&["--json", "-o", text(&file)]);
+    assert_eq!(summary, expected(figures.replace("spheres ", "")));
+}
+
 #[test]
 fn without_a_density_there_is_no_mass_and_without_quality_no_figure() {
     let printed = succeeds(&strs(&clump(&["--json", "--quality", "none"])));
