@@ -98,6 +98,16 @@ impl Error {
     }
 }
 
+/// Refuses what may take more bytes than are `left` of the memory limit.
+pub fn fits(what: std::fmt::Arguments, bytes: u64, left: u64) -> Result<()> {
+    if bytes <= left {
+        return Ok(());
+    }
+    Err(Error::MemoryLimit(format!(
+        "{what} may take {bytes} bytes, more than the {left} that are left of the limit"
+    )))
+}
+
 /// Reserves `len` elements without aborting the process when memory is short.
 /// Every reservation whose size depends on the input goes through here.
 pub fn reserve<T>(what: &str, len: usize) -> Result<Vec<T>> {

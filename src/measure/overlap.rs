@@ -2,7 +2,7 @@
 //! lattice of two axes.
 
 use super::QualityOptions;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, fits};
 use crate::math::{Inertia, Moments, PrincipalFrame, Sphere, Vec3};
 use crate::run::Run;
 use crate::shape::Body;
@@ -110,15 +110,8 @@ pub(super) fn overlap(
     let union = Rows::of_spheres(spheres, lattice)?;
     let bands = (run.pool().threads() * BAND) as u64 * lattice.dims[0] as u64 * COLUMN;
     let bytes = target.bytes() + union.bytes() + bands;
-    if bytes > room {
-        return Err(Error::MemoryLimit(format!(
-            "{} × {} columns through {} spheres may take {bytes} bytes, more than the {room} \
-             that are left of the limit",
-            lattice.dims[0],
-            lattice.dims[1],
-            spheres.len()
-        )));
-    }
+    let ([across, rows], n) = (lattice.dims, spheres.len());
+    fits(format_args!("{across} × {rows} columns through {n} spheres"), bytes, room)?;
     run.count(|c| {
         c.columns += (lattice.dims[0] * lattice.dims[1]) as u64;
         c.peak_bytes = c.peak_bytes.max(solid.bytes() + bytes);

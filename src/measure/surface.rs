@@ -3,7 +3,7 @@
 use super::pieces;
 use super::reach;
 use super::union::Union;
-use crate::error::{Error, Result, reserve};
+use crate::error::{Result, fits, reserve};
 use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::shape::Body;
@@ -87,12 +87,11 @@ pub(super) fn surface(
     let room = solid.memory_limit().saturating_sub(solid.bytes());
     let roots = if whole_search { triangles as u64 } else { 0 };
     let own = wanted as u64 * SAMPLE + (roots + 20 * n as u64) * PIECE;
-    if own > room {
-        return Err(Error::MemoryLimit(format!(
-            "measuring the surfaces of {n} spheres and {triangles} triangles may take {own} \
-             bytes, more than the {room} that are left of the limit"
-        )));
-    }
+    fits(
+        format_args!("measuring the surfaces of {n} spheres and {triangles} triangles"),
+        own,
+        room,
+    )?;
     let union = &Union::new(spheres, room - own, run)?;
     run.count(|c| {
         c.peak_bytes = c.peak_bytes.max(solid.bytes() + union.bytes() + own);

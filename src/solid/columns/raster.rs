@@ -8,7 +8,7 @@
 //! through edges and vertices. Ties are those of a column shifted by (ε, ε²).
 
 use super::{BAND, Band, Lattice, empty_band, push};
-use crate::error::{Error, Result, filled, reserve};
+use crate::error::{Error, Result, filled, fits, reserve};
 use crate::shape::Mesh;
 use std::mem::size_of;
 
@@ -74,13 +74,8 @@ impl Binned {
             starts[b + 1] += starts[b];
         }
         let bytes = bytes(mesh.vertices.len(), bands, starts[bands]);
-        if bytes > limit {
-            return Err(Error::MemoryLimit(format!(
-                "{} faces in {bands} bands of columns may take {bytes} bytes, more than the \
-                 {limit} that are left of the limit",
-                mesh.faces.len()
-            )));
-        }
+        let count = mesh.faces.len();
+        fits(format_args!("{count} faces in {bands} bands of columns"), bytes, limit)?;
         let mut next = filled("bands", bands + 1, 0usize)?;
         next.copy_from_slice(&starts);
         let mut faces = filled("faces in bands", starts[bands], 0u32)?;

@@ -5,7 +5,7 @@ mod faces;
 
 use super::triangle;
 use super::winding::Winding;
-use crate::error::{Error, Result, reserve};
+use crate::error::{Error, Result, fits, reserve};
 use crate::math::Vec3;
 use crate::shape::{Body, Mesh, Voxels};
 use faces::{Occupied, Rectangle};
@@ -176,13 +176,7 @@ fn bounds(lo: Vec3, hi: Vec3) -> Aabb {
 
 /// Refuses a surface that may take more than `limit` bytes.
 fn check(faces: u64, bytes: u64, limit: u64) -> Result<()> {
-    if bytes > limit {
-        return Err(Error::MemoryLimit(format!(
-            "a tree over the surface of {faces} faces may take {bytes} bytes, more than the \
-             {limit} that are left of the limit"
-        )));
-    }
-    Ok(())
+    fits(format_args!("a tree over the surface of {faces} faces"), bytes, limit)
 }
 
 fn build(boxes: Vec<Aabb>) -> Result<Bvh> {
