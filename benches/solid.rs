@@ -74,13 +74,13 @@ fn inside(c: &mut Criterion) {
     group.warm_up_time(Duration::from_millis(200));
     for (name, shape) in shapes() {
         let (g, faces) = (grid(&shape), shape.report.faces);
-        let ms = mean(|| drop(coverage::inside(&shape.body, &g, PADDING, &run)));
+        let ms = mean(|| drop(coverage::inside(&shape.body, &g, PADDING, u64::MAX, &run)));
         let integrals = mean(|| drop(moments::moments(&shape.body, &run)));
         println!(
             "{name}: {faces} faces, {CELLS} cells: inside {ms:.1} ms (bound 50), moments {integrals:.1} ms"
         );
         group.bench_function(&name, |b| {
-            b.iter(|| coverage::inside(&shape.body, &g, PADDING, &run).unwrap());
+            b.iter(|| coverage::inside(&shape.body, &g, PADDING, u64::MAX, &run).unwrap());
         });
     }
     group.finish();

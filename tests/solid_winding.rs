@@ -1,7 +1,7 @@
 //! The winding number by the tree against its exact sum, and the inside that it
 //! gives against crossings.
 
-#![allow(clippy::unwrap_used, clippy::expect_used)]
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod common;
 
@@ -9,9 +9,9 @@ use morula::math::Vec3;
 use morula::run::Pool;
 use morula::shape::read::FileOptions;
 use morula::shape::{Bodies, Body, ImportOptions, Mesh, Primitive};
-use morula::solid::Columns;
 use morula::solid::winding::Winding;
-use morula::{Run, Shape};
+use morula::solid::{Columns, Resolution, SolidOptions, coverage};
+use morula::{Error, Run, Shape, Solid};
 
 /// Largest error of the tree that is accepted.
 const ERROR: f64 = 4e-3;
@@ -140,5 +140,49 @@ fn inside_by_winding_number_is_inside_by_crossings() {
         {
             alike(m, name);
         }
+    }
+}
+
+/// What the winding number of an open mesh needs counts, and is not taken beyond the limit.
+#[test]
+fn trees_over_open_meshes_count_and_are_refused_beyond_the_limit() {
+    let ball = common::sphere(24, 48, 1.0, [0.0; 3]);
+    // A hole, closed by cones; each face apart, a little smaller than its place.
+    let mut bowl = ball.clone();
+    bowl.1.retain(|f| f.iter().all(|&i| ball.0[i as usize][2] < 0.8));
+    let mut apart = common::soup(&ball);
+    for f in apart.0.chunks_exact_mut(3) {
+        let middle = [0, 1, 2].map(|k| (f[0][k] + f[1][k] + f[2][k]) / 3.0);
+        f.iter_mut().for_each(|v| *v = [0, 1, 2].map(|k| 0.01 * middle[k] + 0.99 * v[k]));
+    }
+    for (mesh, soup) in [(bowl, false), (apart, true)] {
+        let run = Run::serial();
+        let shape = Shape::from_mesh(&mesh.0, &mesh.1, &ImportOptions::default(), &run).unwrap();
+        let with = |memory_limit| {
+            let resolution = Resolution::CellsLongest(8);
+            let run = Run::serial();
+            let options = SolidOptions { resolution, memory_limit, ..SolidOptions::default() };
+            (Solid::new(&shape, &options, &run), run.counters().peak_bytes)
+        };
+        let refused = |memory_limit| match with(memory_limit).0.err() {
+            Some(Error::MemoryLimit(text)) => text,
+            e => panic!("{e:?}"),
+        };
+        let (solid, peak) = with(1 << 30);
+        let grid = *solid.unwrap().grid();
+        let (faces, cells) = (shape.report.faces, grid.len() as u64);
+        assert!((100..400).contains(&((peak - cells) / faces)), "{peak} bytes, {faces} faces");
+        let text = refused(peak / 2);
+        let bytes = text.split_once("may take ").and_then(|t| t.1.split_once(" bytes")).unwrap().0;
+        let most: u64 = bytes.parse().unwrap();
+        assert!(text.contains(&(peak / 2).to_string()) && most > peak / 2, "{text}");
+        refused(most - 1);
+        // The cones over a hole take less than a tree over all faces; that tree, which a soup
+        // needs, does not fit beside the mask of the grid.
+        match coverage::inside(&shape.body, &grid, 4, most, &run) {
+            Err(e) => assert!(soup && e.to_string().contains(&(most - cells).to_string()), "{e}"),
+            Ok(_) => assert!(!soup),
+        }
+        with(2 * peak).0.unwrap();
     }
 }

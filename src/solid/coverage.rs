@@ -6,6 +6,7 @@
 //! plane cuts is in exactly when its centre is; what is sampled are edges,
 //! corners and curvature.
 
+use super::columns::Lattice;
 use super::moments::wide_open;
 use super::{Columns, Grid};
 use crate::error::{Error, Result, filled};
@@ -26,17 +27,25 @@ const TIE: f64 = 1.0 / (1u64 << 20) as f64;
 const AT_ONCE: usize = 1 << 21;
 
 /// 1 for the cells of `grid` of which more than half is covered by `body`, a mesh that keeps
-/// `padding` cells clear around it.
-pub fn inside(body: &Body, grid: &Grid, padding: usize, run: &Run) -> Result<Vec<u8>> {
+/// `padding` cells clear around it. Refused where that and what an open mesh needs may take more
+/// than `limit` bytes.
+pub fn inside(body: &Body, grid: &Grid, padding: usize, limit: u64, run: &Run) -> Result<Vec<u8>> {
     let k = match body {
-        Body::Mesh(m) if !m.clean && wide_open(m)? => COLUMNS_OPEN,
+        Body::Mesh(m) if !m.clean && wide_open(m, limit, run)? => COLUMNS_OPEN,
         _ => COLUMNS,
     };
-    covered(body, grid, padding, k, run)
+    covered(body, grid, padding, k, limit, run)
 }
 
 /// The same by `k` × `k` columns a cell.
-fn covered(body: &Body, grid: &Grid, padding: usize, k: usize, run: &Run) -> Result<Vec<u8>> {
+fn covered(
+    body: &Body,
+    grid: &Grid,
+    padding: usize,
+    k: usize,
+    limit: u64,
+    run: &Run,
+) -> Result<Vec<u8>> {
     let [nx, ny, nz] = grid.dims;
     if padding >= ny.div_ceil(2) || padding >= nz.div_ceil(2) {
         return Err(Error::InvalidArgument(format!(
@@ -58,7 +67,9 @@ fn covered(body: &Body, grid: &Grid, padding: usize, k: usize, run: &Run) -> Res
             middle.z + (first as f64 - 0.5 * mz as f64) * k as f64 * step.z,
         ];
         let dims = [my * k, layers * k];
-        let c = Columns::new(body, 0, dims, lattice_origin, [step.y, step.z], run.pool())?;
+        let lattice = Lattice::straight(0, dims, lattice_origin, [step.y, step.z]);
+        let held = inside.len() as u64;
+        let c = Columns::within(body, lattice, limit.saturating_sub(held), held, run)?;
         let from = grid.index(0, 0, padding + first);
         let to = grid.index(0, 0, padding + first + layers);
         let Some(part) = inside.get_mut(from..to) else { continue };

@@ -104,7 +104,8 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
             options.padding
         )));
     }
-    let moments = run.time(Stage::Moments, || moments::moments(&shape.body, run))?;
+    let moments =
+        run.time(Stage::Moments, || moments::within(&shape.body, options.memory_limit, run))?;
     run.time(Stage::Solid, || {
         let mut notes = Vec::new();
         if moments.relative_error > 0.0 {
@@ -249,7 +250,7 @@ fn of_mesh(
     let dims = dims_of(h).map(|n| n as usize);
     let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
     let grid = Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half };
-    let inside = coverage::inside(&shape.body, &grid, options.padding, run)?;
+    let inside = coverage::inside(&shape.body, &grid, options.padding, options.memory_limit, run)?;
     if !inside.contains(&1) {
         return Err(Error::Empty(format!(
             "no cell of size {:e} is more than half covered: the shape is too thin for them",

@@ -35,6 +35,11 @@ const ROUNDING: f64 = 1e-9;
 /// the box's face may slip between them; the polyhedral integrals count it twice, and
 /// `relative_error` is 0. Such a one takes less than 1e-5 of the box.
 pub fn moments(body: &Body, run: &Run) -> Result<Moments> {
+    within(body, u64::MAX, run)
+}
+
+/// The same, refused where what an open mesh needs may take more than `limit` bytes.
+pub(super) fn within(body: &Body, limit: u64, run: &Run) -> Result<Moments> {
     match body {
         Body::Voxels(v) => of_cells(v),
         Body::Mesh(mesh) => {
@@ -42,18 +47,18 @@ pub fn moments(body: &Body, run: &Run) -> Result<Moments> {
                 return Err(Error::Empty("the mesh has no face".into()));
             };
             if !(mesh.clean || closed(mesh)?) {
-                let n = if wide_open(mesh)? { WIDE_OPEN } else { OPEN };
-                return by_columns(body, lo, hi, n, run);
+                let n = if wide_open(mesh, limit, run)? { WIDE_OPEN } else { OPEN };
+                return by_columns(body, [lo, hi], n, limit, run);
             }
             let exact = of_polyhedron(mesh, &((lo + hi) * 0.5), run);
             let mut miscounted = 0.0f64;
             for axis in 0..3 {
                 run.check(0.0, "looking for overlaps")?;
-                let c = columns(body, axis, [lo, hi], LOOK, true, run)?;
+                let c = columns(body, axis, [lo, hi], LOOK, true, limit, run)?;
                 miscounted = miscounted.max(c.miscounted);
             }
             if miscounted > OVERLAP * exact.volume.abs() {
-                return by_columns(body, lo, hi, CLOSED, run);
+                return by_columns(body, [lo, hi], CLOSED, limit, run);
             }
             let noise = 1e-14 * (hi - lo).max() * area(mesh);
             if exact.volume <= noise {
@@ -91,10 +96,11 @@ fn difference(a: &Moments, b: &Moments) -> f64 {
 
 /// Whether the openings are felt in a tenth of the box or more: the winding number there, on
 /// 8³ points, is far from whole.
-pub(super) fn wide_open(mesh: &Mesh) -> Result<bool> {
+pub(super) fn wide_open(mesh: &Mesh, limit: u64, run: &Run) -> Result<bool> {
     const N: usize = 8;
     let Some((lo, hi)) = bounds(mesh) else { return Ok(false) };
-    let winding = Winding::new(mesh)?;
+    let winding = Winding::within(mesh, limit)?;
+    run.count(|c| c.peak_bytes = c.peak_bytes.max(winding.bytes()));
     let felt = (0..N * N * N).filter(|q| {
         let at = [q % N, q / N % N, q / (N * N)].map(|i| (i as f64 + 0.5) / N as f64);
         let w = winding.at(&(lo + (hi - lo).component_mul(&Vec3::from(at))));
@@ -226,6 +232,7 @@ fn columns(
     [lo, hi]: [Vec3; 2],
     n: usize,
     slanted: bool,
+    limit: u64,
     run: &Run,
 ) -> Result<Columns> {
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -238,19 +245,25 @@ fn columns(
     } else {
         Lattice::straight(axis, [n, n], a, [0, 1].map(|k| (b[k] - a[k]) / n as f64))
     };
-    Columns::on(body, lattice, run.pool())
+    Columns::within(body, lattice, limit, 0, run)
 }
 
 /// Moments from `n` × `n` columns along each axis: the mean of the three, and as error
 /// twice their greatest difference from it, at least ½ n^−1.5.
-fn by_columns(body: &Body, lo: Vec3, hi: Vec3, n: usize, run: &Run) -> Result<Moments> {
+fn by_columns(
+    body: &Body,
+    [lo, hi]: [Vec3; 2],
+    n: usize,
+    limit: u64,
+    run: &Run,
+) -> Result<Moments> {
     let middle = (lo + hi) * 0.5;
     let mut total = Sums::default();
     let mut volumes = [0.0; 3];
     let mut parts = [Sums::default(); 3];
     for axis in 0..3 {
         run.check(0.0, "integrating by columns")?;
-        let c = columns(body, axis, [lo, hi], n, n > OPEN, run)?;
+        let c = columns(body, axis, [lo, hi], n, n > OPEN, limit, run)?;
         let lattice = c.lattice();
         let m = [middle[(axis + 1) % 3], middle[(axis + 2) % 3]];
         let mut sums = Sums::default();

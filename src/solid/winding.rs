@@ -10,7 +10,7 @@
 
 pub use crate::math::solid_angle;
 
-use crate::error::{Error, Result, reserve};
+use crate::error::{Error, Result, fits, reserve};
 use crate::math::{Vec3, half_solid_angle};
 use crate::shape::Mesh;
 use std::mem::size_of;
@@ -182,6 +182,13 @@ impl Winding {
     pub(super) fn bytes(&self) -> u64 {
         let nodes = self.nodes.capacity() * size_of::<Node>();
         (self.faces.capacity() * size_of::<[Vec3; 3]>() + nodes) as u64
+    }
+
+    /// The tree, refused where it may take more than `limit` bytes.
+    pub(super) fn within(mesh: &Mesh, limit: u64) -> Result<Winding> {
+        let faces = mesh.faces.len();
+        fits(format_args!("{WHAT} over {faces} faces"), Winding::most_bytes(faces), limit)?;
+        Winding::new(mesh)
     }
 
     /// Builds the tree.

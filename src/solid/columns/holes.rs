@@ -5,7 +5,7 @@
 //! each connected part of the border closes it, whatever the border's form:
 //! every vertex has as many edges coming in as going out.
 
-use crate::error::{Result, filled, reserve};
+use crate::error::{Result, filled, fits, reserve};
 use crate::math::Vec3;
 use crate::shape::Mesh;
 use crate::solid::winding::Winding;
@@ -79,7 +79,20 @@ fn find(root: &mut [usize], mut i: usize) -> usize {
 }
 
 impl Cones {
-    pub(super) fn new(mesh: &Mesh, border: &[[u32; 2]]) -> Result<Cones> {
+    /// Most bytes that closing a border of so many edges takes. It has no more vertices, nor
+    /// parts, than edges, and fewer groups than twice the parts; what is taken for each of its
+    /// vertices while it is closed is counted as well.
+    fn most_bytes(mesh: &Mesh, border: usize) -> u64 {
+        let mesh = 24 * mesh.vertices.len() as u64 + 12 * mesh.faces.len() as u64;
+        let each = 24 + 12 + 8 + 8 + 32 + 8 + 3 * size_of::<Group>() as u64;
+        mesh + border as u64 * each + Winding::most_bytes(border)
+    }
+
+    /// Closes `mesh` at its `border`; refused where that may take more than `limit` bytes.
+    pub(super) fn new(mesh: &Mesh, border: &[[u32; 2]], limit: u64) -> Result<Cones> {
+        let (faces, n) = (mesh.faces.len(), border.len());
+        let most = Cones::most_bytes(mesh, n);
+        fits(format_args!("closing {n} open edges of {faces} faces"), most, limit)?;
         let mut ids: Vec<u32> = reserve(WHAT, border.len().saturating_mul(2))?;
         ids.extend(border.iter().flatten());
         ids.sort_unstable();
@@ -229,12 +242,23 @@ mod tests {
     }
 
     #[test]
+    fn what_closing_takes_is_known_before() {
+        let mesh = faces(30);
+        let border = border(&mesh).unwrap();
+        let most = Cones::most_bytes(&mesh, border.len());
+        let held = Cones::new(&mesh, &border, most).unwrap().bytes();
+        assert!(held < most && most < 2 * held, "{held} {most}");
+        let text = Cones::new(&mesh, &border, most - 1).err().unwrap().to_string();
+        assert!(text.contains(&format!("{most} bytes, more than the {}", most - 1)), "{text}");
+    }
+
+    #[test]
     fn groups_never_say_more_than_all_parts_and_look_at_few() {
         let mut mean = Vec::new();
         for n in [12, 120] {
             let mesh = faces(n);
             let border = border(&mesh).unwrap();
-            let cones = Cones::new(&mesh, &border).unwrap();
+            let cones = Cones::new(&mesh, &border, u64::MAX).unwrap();
             let alone: Vec<Group> = cones
                 .groups
                 .iter()

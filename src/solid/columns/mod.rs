@@ -12,7 +12,7 @@ pub(super) use holes::closed;
 
 use crate::error::{Error, Result, filled, reserve};
 use crate::math::{Sphere, Vec3};
-use crate::run::Pool;
+use crate::run::{Pool, Run};
 use crate::shape::{Body, Mesh, Voxels};
 use open::Open;
 use raster::Binned;
@@ -188,6 +188,22 @@ impl Columns {
     /// The columns of `body` on any lattice.
     pub(crate) fn on(body: &Body, lattice: Lattice, pool: &Pool) -> Result<Columns> {
         Columns::of(&Rows::of_body(body, lattice, u64::MAX)?, pool)
+    }
+
+    /// The same in a run, in no more than `limit` bytes beside the `held` ones.
+    pub(crate) fn within(
+        body: &Body,
+        lattice: Lattice,
+        limit: u64,
+        held: u64,
+        run: &Run,
+    ) -> Result<Columns> {
+        let rows = Rows::of_body(body, lattice, limit)?;
+        // What closed meshes need is less than the mesh.
+        if let Source::Open(open) = &rows.source {
+            run.count(|c| c.peak_bytes = c.peak_bytes.max(held + open.bytes()));
+        }
+        Columns::of(&rows, run.pool())
     }
 
     /// All columns of `rows`.

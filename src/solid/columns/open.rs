@@ -91,9 +91,9 @@ impl<'a> Open<'a> {
         }
         let across = lattice.below(0, lo[0])..lattice.below(0, hi[0]);
         let rule = if border.len() < mesh.faces.len() {
-            Rule::Closed(Cones::new(mesh, border)?)
+            Rule::Closed(Cones::new(mesh, border, limit)?)
         } else {
-            Rule::Tree(Winding::new(mesh)?)
+            Rule::Tree(Winding::within(mesh, limit)?)
         };
         let room = limit.saturating_sub(rule.bytes());
         let binned = Binned::new(rule.crossed(mesh), lattice, room)?;
@@ -293,7 +293,7 @@ mod tests {
             let mesh = sphere(drop);
             let border = border(&mesh).unwrap();
             assert_eq!(border.is_empty(), hole == 0);
-            let cones = Cones::new(&mesh, &border).unwrap();
+            let cones = Cones::new(&mesh, &border, u64::MAX).unwrap();
             assert!(super::super::closed(&cones.closed).unwrap());
             let exact = Winding::new(&mesh).unwrap();
             let body = Body::Mesh(mesh);
