@@ -87,6 +87,10 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_RESOLUTION_CELLS_DIAMETER = 2_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_RESOLUTION_CELL_SIZE = 3_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_MSS = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_METHOD_BEST = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EFFORT_DRAFT = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EFFORT_NORMAL = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EFFORT_THOROUGH = 2_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_FRAME_INPUT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_FRAME_BODY = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_WANT_NOTHING = 0_c_int32_t
@@ -201,6 +205,8 @@ module morula
     integer(c_size_t) :: plane_tolerance_count = 0_c_size_t
     type(c_funptr) :: progress = c_null_funptr
     type(c_ptr) :: user = c_null_ptr
+    integer(c_int32_t) :: effort = 0_c_int32_t
+    integer(c_int32_t) :: reserved = 0_c_int32_t
   end type morula_clump_options
 
   type, bind(c), public :: morula_overlap

@@ -70,6 +70,15 @@ pub const MORULA_RESOLUTION_CELL_SIZE: i32 = 3;
 
 /// MSS: local maxima of the distance transform, iterated (the default).
 pub const MORULA_METHOD_MSS: i32 = 0;
+/// Least mismatch for the number of spheres.
+pub const MORULA_METHOD_BEST: i32 = 1;
+
+/// MORULA_METHOD_BEST: milliseconds.
+pub const MORULA_EFFORT_DRAFT: i32 = 0;
+/// MORULA_METHOD_BEST: about a tenth of a second for a hundred spheres (the default).
+pub const MORULA_EFFORT_NORMAL: i32 = 1;
+/// MORULA_METHOD_BEST: seconds.
+pub const MORULA_EFFORT_THOROUGH: i32 = 2;
 
 /// Spheres in the frame in which the shape was handed in (the default).
 pub const MORULA_FRAME_INPUT: i32 = 0;

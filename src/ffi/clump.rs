@@ -4,12 +4,12 @@ use super::callbacks::{MORULA_LOG_INFO, log, log_notes, run};
 use super::choices::*;
 use super::guard::{borrow, give, guard, require, slice, take};
 use super::options::{init, read};
-use super::shape::morula_shape;
+use super::shape::{morula_shape, reserved};
 use super::solid::{build, morula_solid};
 use super::structs::*;
 use crate::clump::Clump;
 use crate::error::{Error, Result};
-use crate::generate::{GenerateOptions, Method, generate};
+use crate::generate::{Effort, GenerateOptions, Method, generate};
 use crate::math::{Moments, UnitFrame};
 use crate::measure::QualityOptions;
 use crate::run::{Counters, Run};
@@ -46,12 +46,20 @@ struct Asked<'a> {
 
 unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
     let o = unsafe { read(options)? };
+    reserved("clump", o.reserved)?;
     let no_choice = |name: &str, value: i32| {
         Err(Error::InvalidArgument(format!("{name} is {value}, no choice")))
     };
     let method = match o.method {
         MORULA_METHOD_MSS => Method::Mss,
+        MORULA_METHOD_BEST => Method::Best,
         other => return no_choice("method", other),
+    };
+    let effort = match o.effort {
+        MORULA_EFFORT_DRAFT => Effort::Draft,
+        MORULA_EFFORT_NORMAL => Effort::Normal,
+        MORULA_EFFORT_THOROUGH => Effort::Thorough,
+        other => return no_choice("effort", other),
     };
     let confine = match o.confine {
         0 => false,
@@ -102,6 +110,7 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
         min_distance: o.min_distance,
         radius_offset: o.radius_offset,
         confine,
+        effort,
         quality: measured.then_some(quality),
     };
     let mut run = run(o.threads, o.progress, o.user)?.with_seed(o.seed);

@@ -113,7 +113,9 @@ pub struct morula_clump_options {
     pub deadline_seconds: f64,
     /// Seed of every random choice. Default 0.
     pub seed: u64,
-    /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS.
+    /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS. min_distance, radius_offset and confine
+    /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST needs a number of spheres and
+    /// refuses what it does not read.
     pub method: i32,
     /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
     pub confine: i32,
@@ -135,6 +137,10 @@ pub struct morula_clump_options {
     pub progress: morula_progress,
     /// Handed to `progress`.
     pub user: *mut c_void,
+    /// One of MORULA_EFFORT_*, for MORULA_METHOD_BEST. Default MORULA_EFFORT_NORMAL.
+    pub effort: i32,
+    /// Must be 0.
+    pub reserved: i32,
 }
 
 /// What was found in an input and what was done about it. Lengths, areas and

@@ -1,5 +1,6 @@
 //! The methods that turn a solid into a clump.
 
+pub mod best;
 pub mod mss;
 
 use crate::clump::{Clump, Stopped};
@@ -7,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
 use crate::solid::Solid;
+pub use best::Effort;
 
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -14,6 +16,9 @@ pub enum Method {
     /// Local maxima of the distance transform, then of 2E − Ẽ (Buchele et al. 2026).
     #[default]
     Mss,
+    /// Least mismatch for the number of spheres: greedy cover, refinement of exposed surfaces,
+    /// spheres moved to where they help more.
+    Best,
 }
 
 /// What a generator is asked for. The criteria apply alone or together; the
@@ -34,6 +39,8 @@ pub struct GenerateOptions {
     pub radius_offset: f64,
     /// Limit the radii so that no sphere reaches beyond the true surface (Buchele et al. 2026, section 3.5).
     pub confine: bool,
+    /// How long [`Method::Best`] looks for a clump.
+    pub effort: Effort,
     /// Quality to measure on the result; `None` costs nothing.
     pub quality: Option<QualityOptions>,
 }
@@ -48,6 +55,7 @@ impl Default for GenerateOptions {
             min_distance: 0.0,
             radius_offset: 0.0,
             confine: false,
+            effort: Effort::Normal,
             quality: None,
         }
     }
@@ -58,6 +66,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
     check(options, run)?;
     let mut clump = run.time(Stage::Generate, || match options.method {
         Method::Mss => mss::mss(solid, options, run),
+        Method::Best => best::best(solid, options, run),
     })?;
     // A cancelled call measures no more: the clump goes out without figures.
     if let Some(wanted) = &options.quality

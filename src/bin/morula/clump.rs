@@ -5,7 +5,7 @@ use crate::input::{self, Fineness, Reading};
 use crate::progress::Bar;
 use crate::write::{self, ClumpFormat};
 use clap::ValueEnum;
-use morula::generate::{GenerateOptions, Method, generate};
+use morula::generate::{Effort, GenerateOptions, Method, generate};
 use morula::measure::QualityOptions;
 use morula::{Clump, Run, Shape, Solid};
 use serde_json::{Value, json};
@@ -64,6 +64,9 @@ struct Making {
     /// How spheres are found
     #[arg(long, value_enum, default_value_t = MethodArg::Mss)]
     method: MethodArg,
+    /// How long method best looks for a clump
+    #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
+    effort: EffortArg,
     /// Stop at this mismatch D
     #[arg(long, value_name = "D", value_parser = input::not_negative)]
     mismatch: Option<f64>,
@@ -89,6 +92,18 @@ struct Making {
 enum MethodArg {
     /// Local maxima of the distance transform (paper of Buchele, Pöschel and Müller)
     Mss,
+    /// Least mismatch for the number of spheres
+    Best,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum EffortArg {
+    /// Milliseconds
+    Draft,
+    /// About a tenth of a second for a hundred spheres
+    Normal,
+    /// Seconds
+    Thorough,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -176,6 +191,12 @@ impl Args {
         GenerateOptions {
             method: match m.method {
                 MethodArg::Mss => Method::Mss,
+                MethodArg::Best => Method::Best,
+            },
+            effort: match m.effort {
+                EffortArg::Draft => Effort::Draft,
+                EffortArg::Normal => Effort::Normal,
+                EffortArg::Thorough => Effort::Thorough,
             },
             spheres: self.spheres.unwrap_or(if unbounded { 0 } else { 50 }),
             mismatch: m.mismatch.unwrap_or(0.0),

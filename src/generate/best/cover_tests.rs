@@ -1,0 +1,112 @@
+//! Lengths of columns against the quality figures, and changes against whole sums.
+
+use super::super::ball::Ball;
+use super::super::random::Random;
+use super::super::test_bodies::bodies;
+use super::*;
+use crate::measure::{QualityOptions, quality};
+use crate::run::Run;
+
+fn clump(n: usize, seed: u64) -> Vec<Ball> {
+    let mut random = Random::new(seed, 2);
+    (0..n)
+        .map(|_| Ball {
+            center: [0; 3].map(|_| random.between(0.0, 0.9) as f32),
+            radius: random.between(0.03, 0.2) as f32,
+        })
+        .collect()
+}
+
+#[test]
+fn the_mismatch_is_that_of_the_quality_figures() {
+    for body in bodies() {
+        let dexels = body.dexels(192);
+        let mut cover = Cover::new(&dexels).unwrap();
+        for n in [1, 3, 10, 40] {
+            // Within the room that columns have.
+            let balls: Vec<Ball> = clump(n, n as u64)
+                .iter()
+                .map(|b| Ball { center: b.center.map(|x| 0.2 + 0.3 * x), radius: 0.5 * b.radius })
+                .collect();
+            let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
+            let lengths = cover.whole(&dexels, &seen);
+            let frame = body.solid.frame();
+            let spheres: Vec<_> =
+                balls.iter().map(|b| frame.sphere_to_input(&b.sphere())).collect();
+            let options =
+                QualityOptions { columns: 512, surface: false, ..QualityOptions::default() };
+            let q = quality(&body.solid, &spheres, &options, &Run::serial()).unwrap();
+            let d = lengths.mismatch(dexels.target);
+            assert!((d - q.mismatch).abs() < 5e-4, "{n}: {d} {}", q.mismatch);
+            let volume = lengths.union * dexels.cell() * frame.scale.powi(3);
+            assert!((volume / q.union_volume - 1.0).abs() < 2e-3, "{n}");
+        }
+    }
+}
+
+#[test]
+fn changes_add_up_to_whole_sums() {
+    for body in bodies() {
+        let dexels = body.dexels(64);
+        let (mut cover, mut other) = (Cover::new(&dexels).unwrap(), Cover::new(&dexels).unwrap());
+        let mut seen: Vec<Seen> = clump(25, 4).iter().map(|b| dexels.seen(b)).collect();
+        let fresh: Vec<Seen> = clump(60, 5).iter().map(|b| dexels.seen(b)).collect();
+        let mut sum = cover.whole(&dexels, &seen);
+        let mut region = Region::default();
+        for (k, new) in fresh.iter().enumerate() {
+            let i = k % seen.len();
+            region.of(&dexels, [seen[i], *new].into_iter());
+            seen[i] = *new;
+            sum = sum.plus(&cover.change(&dexels, &region, &seen));
+            cover.take(&dexels, &region);
+            let whole = other.whole(&dexels, &seen);
+            let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * dexels.target;
+            assert!(close(sum.union, whole.union) && close(sum.both, whole.both));
+        }
+        for c in 0..dexels.dims[0] * dexels.dims[1] {
+            assert_eq!(cover.columns[c], other.columns[c], "column {c}");
+        }
+    }
+}
+
+#[test]
+fn what_a_ball_covers_alone_is_lost_without_it() {
+    for body in bodies() {
+        let dexels = body.dexels(64);
+        let mut cover = Cover::new(&dexels).unwrap();
+        let seen: Vec<Seen> = clump(30, 8).iter().map(|b| dexels.seen(b)).collect();
+        let whole = cover.whole(&dexels, &seen);
+        let mut region = Region::default();
+        region.all(&dexels);
+        let mut alone = vec![Lengths::default(); seen.len()];
+        cover.alone(&dexels, &region, &seen, 1.0, &mut alone);
+        for (i, alone) in alone.iter().enumerate() {
+            let mut rest = seen.clone();
+            rest.remove(i);
+            let lost = whole.less(&cover.whole(&dexels, &rest));
+            let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * dexels.target;
+            assert!(close(lost.union, alone.union), "{i}: {lost:?} {:?}", alone);
+            assert!(close(lost.both, alone.both), "{i}: {lost:?} {:?}", alone);
+        }
+    }
+}
+
+#[test]
+fn gaps_are_what_is_missing() {
+    for body in bodies() {
+        let dexels = body.dexels(64);
+        let mut cover = Cover::new(&dexels).unwrap();
+        let seen: Vec<Seen> = clump(20, 6).iter().map(|b| dexels.seen(b)).collect();
+        cover.whole(&dexels, &seen);
+        let mut gaps = Vec::new();
+        for b in 0..dexels.dims[1] {
+            for a in 0..dexels.dims[0] {
+                let c = a + dexels.dims[0] * b;
+                cover.gaps(&dexels, [a, b], &seen, &mut gaps);
+                let sum: f32 = gaps.iter().map(|g| g[1] - g[0]).sum();
+                assert!((sum - cover.missing(&dexels, c)).abs() < 1e-3, "{a} {b}");
+                assert!(gaps.iter().all(|g| g[0] < g[1]));
+            }
+        }
+    }
+}

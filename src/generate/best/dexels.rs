@@ -1,0 +1,137 @@
+//! Columns of the target as exact inside intervals, on a square lattice turned to a generic
+//! orientation: faces parallel to the columns would be exploited on a straight one. Everything
+//! is in units of the distance between columns, with column (a, b) at the place (a, b).
+
+use super::ball::Ball;
+use super::random::Random;
+use crate::error::{Error, Result, reserve};
+use crate::math::Vec3;
+use crate::run::Pool;
+use crate::shape::Body;
+use crate::solid::Columns;
+use crate::solid::columns::Lattice;
+
+/// Room around the target's box on the sampled axes, as a part of its longer edge there: what
+/// balls reach beyond it is not seen.
+const ROOM: f64 = 0.2;
+
+/// The target's columns.
+pub(super) struct Dexels {
+    lattice: Lattice,
+    /// Distance between columns.
+    step: f64,
+    /// Columns along both axes of the lattice.
+    pub dims: [usize; 2],
+    starts: Vec<u32>,
+    intervals: Vec<[f32; 2]>,
+    /// Length inside of all columns.
+    pub target: f64,
+}
+
+/// A ball seen along the columns.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Seen {
+    /// Place across the columns.
+    pub u: f32,
+    pub v: f32,
+    /// Along them.
+    pub t: f32,
+    pub r: f32,
+}
+
+impl Dexels {
+    /// About `n` columns along the longer edge of the target's box across its shortest.
+    pub(super) fn new(body: &Body, low: &Vec3, high: &Vec3, n: usize, pool: &Pool) -> Result<Self> {
+        let edges = high - low;
+        let axis = (0..3).rev().min_by(|&i, &j| edges[i].total_cmp(&edges[j])).unwrap_or(2);
+        let sampled = [(axis + 1) % 3, (axis + 2) % 3];
+        let width = edges[sampled[0]].max(edges[sampled[1]]) * (1.0 + 2.0 * ROOM);
+        let middle = sampled.map(|a| 0.5 * (low[a] + high[a]));
+        let n = (n as f64 * (1.0 + 2.0 * ROOM)).ceil() as usize;
+        let lattice = Lattice::slanted(
+            axis,
+            n,
+            middle.map(|m| m - 0.5 * width),
+            middle.map(|m| m + 0.5 * width),
+        );
+        let columns = Columns::on(body, lattice, pool)?;
+        let step = width / n as f64;
+        let too_many = || Error::TooLarge("the columns have too many intervals".into());
+        let mut starts = reserve("columns", columns.starts.len())?;
+        for &s in &columns.starts {
+            starts.push(u32::try_from(s).map_err(|_| too_many())?);
+        }
+        let mut intervals = reserve("intervals of columns", columns.intervals.len())?;
+        let mut target = 0.0;
+        for i in &columns.intervals {
+            let i = i.map(|t| (t / step) as f32);
+            target += f64::from(i[1]) - f64::from(i[0]);
+            intervals.push(i);
+        }
+        if target <= 0.0 {
+            return Err(Error::ZeroVolume(format!("none of {n} × {n} columns meets the target")));
+        }
+        Ok(Dexels { lattice, step, dims: lattice.dims, starts, intervals, target })
+    }
+
+    /// Bytes that it holds.
+    pub(super) fn bytes(&self) -> u64 {
+        (self.starts.len() * 4 + self.intervals.len() * 8) as u64
+    }
+
+    /// Volume of a unit of length in one column, unit frame.
+    #[cfg(test)]
+    pub(super) fn cell(&self) -> f64 {
+        self.step.powi(3)
+    }
+
+    /// A ball along the columns.
+    pub(super) fn seen(&self, ball: &Ball) -> Seen {
+        let l = &self.lattice;
+        let [x, y, t] = l.turn(&Vec3::from(ball.center.map(f64::from)));
+        let place = |k: usize, x: f64| ((x - l.origin[k]) / l.step[k] - 0.5) as f32;
+        Seen {
+            u: place(0, x),
+            v: place(1, y),
+            t: (t / self.step) as f32,
+            r: (f64::from(ball.radius) / self.step) as f32,
+        }
+    }
+
+    /// The point of column (a, b) at `t`, unit frame.
+    pub(super) fn point(&self, a: usize, b: usize, t: f32) -> [f32; 3] {
+        let [x, y] = self.lattice.place(a, b);
+        let mut p = [0.0; 3];
+        p[self.lattice.axis] = (f64::from(t) * self.step) as f32;
+        p[(self.lattice.axis + 1) % 3] = x as f32;
+        p[(self.lattice.axis + 2) % 3] = y as f32;
+        p
+    }
+
+    /// The intervals of column `c = a + dims[0] b`.
+    #[inline(always)]
+    pub(super) fn column(&self, c: usize) -> &[[f32; 2]] {
+        &self.intervals[self.starts[c] as usize..self.starts[c + 1] as usize]
+    }
+
+    /// Points inside, one in each of `n` equal parts of all lengths inside.
+    pub(super) fn points(&self, n: usize, random: &mut Random) -> Result<Vec<[f32; 3]>> {
+        let mut out = reserve("points inside", n)?;
+        let part = self.target / n as f64;
+        let (mut before, mut next) = (0.0, part * random.unit());
+        for b in 0..self.dims[1] {
+            for a in 0..self.dims[0] {
+                for i in self.column(a + self.dims[0] * b) {
+                    let length = f64::from(i[1]) - f64::from(i[0]);
+                    while out.len() < n && next < before + length {
+                        let t = f64::from(i[0]) + (next - before);
+                        out.push(self.point(a, b, t as f32));
+                        next = (out.len() as f64 + random.unit()) * part;
+                    }
+                    before += length;
+                }
+            }
+        }
+        Ok(out)
+    }
+}

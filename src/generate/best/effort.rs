@@ -1,0 +1,76 @@
+//! How much work goes into a clump, by counts: the result never depends on the clock.
+
+/// How long a clump is looked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Effort {
+    /// Seeds and a short refinement: some milliseconds.
+    Draft,
+    /// A full refinement, and spheres moved to where they help more: about a tenth of a second
+    /// for a hundred spheres.
+    #[default]
+    Normal,
+    /// Many more such moves: a few seconds.
+    Thorough,
+}
+
+/// The counts of a search.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Plan {
+    /// Points to be covered and candidate balls of the greedy start.
+    pub points: usize,
+    pub candidates: usize,
+    /// Directions and iterations of the first refinement.
+    pub directions: usize,
+    pub iterations: usize,
+    /// Columns along the longer edge.
+    pub columns: usize,
+    /// Chains that search on their own, and how often they are compared.
+    pub chains: usize,
+    pub rounds: usize,
+    /// Moves of a chain, all rounds together.
+    pub moves: usize,
+    /// Directions and iterations of the last refinement.
+    pub polish: [usize; 2],
+}
+
+impl Effort {
+    /// The counts for `n` spheres.
+    pub(super) fn plan(self, n: usize) -> Plan {
+        let wide = |least: usize, each: usize| least.max(each.saturating_mul(n));
+        match self {
+            Effort::Draft => Plan {
+                points: wide(1500, 24),
+                candidates: wide(300, 5),
+                directions: 48,
+                iterations: 60,
+                columns: 96,
+                chains: 0,
+                rounds: 0,
+                moves: 0,
+                polish: [0, 0],
+            },
+            Effort::Normal => Plan {
+                points: wide(4000, 32),
+                candidates: wide(800, 6),
+                directions: 96,
+                iterations: 100,
+                columns: 96,
+                chains: 2,
+                rounds: 3,
+                moves: 150,
+                polish: [192, 40],
+            },
+            Effort::Thorough => Plan {
+                points: wide(6000, 32),
+                candidates: wide(1500, 6),
+                directions: 96,
+                iterations: 100,
+                columns: 128,
+                chains: 2,
+                rounds: 6,
+                moves: 3000,
+                polish: [384, 60],
+            },
+        }
+    }
+}

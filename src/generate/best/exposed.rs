@@ -1,0 +1,184 @@
+//! What a sphere's exposed surface says about where the sphere should go: the normal equations of
+//! a Gauss–Newton step with Huber's loss on the signed distance.
+
+use super::ball::Ball;
+use super::field::Field;
+use wide::f32x8;
+
+/// What overlap and protrusion weigh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Weights {
+    /// Of target that is covered.
+    pub inside: f32,
+    /// Of clump beyond the target.
+    pub outside: f32,
+}
+
+impl Weights {
+    /// Those for which the least w_out |C∖S| − w_in |S∩C| is the least D, near this D.
+    pub(super) fn at(mismatch: f64) -> Weights {
+        Weights { inside: (1.0 + mismatch) as f32, outside: (1.0 - mismatch) as f32 }
+    }
+}
+
+/// Directions that a neighbour hides: d · axis > cos.
+#[derive(Debug, Clone, Copy)]
+struct Cap {
+    axis: [f32; 3],
+    cos: f32,
+}
+
+/// The normal equations `M δ = b` for a change of centre and radius: the upper triangle of M,
+/// row after row, and b.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct Normal {
+    pub m: [f64; 10],
+    pub b: [f64; 4],
+    /// Directions that are exposed.
+    pub exposed: usize,
+}
+
+/// Buffers of [`Sampler::normal`].
+#[derive(Debug, Default, Clone)]
+pub(super) struct Scratch {
+    caps: Vec<Cap>,
+    open: [Vec<f32>; 3],
+}
+
+/// What all spheres of an iteration have in common.
+pub(super) struct Sampler<'a> {
+    pub field: &'a Field<'a>,
+    /// Directions, turned.
+    pub directions: &'a [[f32x8; 3]],
+    pub weights: Weights,
+    /// Huber's width.
+    pub width: f32,
+}
+
+impl Sampler<'_> {
+    /// The normal equations of `ball` among `others`.
+    pub(super) fn normal<'b>(
+        &self,
+        ball: &Ball,
+        others: impl Iterator<Item = &'b Ball>,
+        scratch: &mut Scratch,
+    ) -> Normal {
+        let Scratch { caps, open } = scratch;
+        if !caps_of(ball, others, caps) {
+            return Normal::default();
+        }
+        let exposed = self.exposed(caps, open);
+        self.sum(ball, open, exposed)
+    }
+
+    /// The exposed directions, filled up to a multiple of eight; returns how many.
+    fn exposed(&self, caps: &[Cap], open: &mut [Vec<f32>; 3]) -> usize {
+        let [ox, oy, oz] = open;
+        for v in [&mut *ox, &mut *oy, &mut *oz] {
+            v.clear();
+            v.reserve(8 * self.directions.len() + 8);
+        }
+        for [x, y, z] in self.directions {
+            let mut hidden = 0u32;
+            for c in caps {
+                let dot = *x * c.axis[0] + *y * c.axis[1] + *z * c.axis[2];
+                hidden |= dot.simd_gt(f32x8::splat(c.cos)).to_bitmask();
+                if hidden == 0xff {
+                    break;
+                }
+            }
+            if hidden == 0xff {
+                continue;
+            }
+            let [x, y, z] = [x.to_array(), y.to_array(), z.to_array()];
+            if hidden == 0 {
+                ox.extend_from_slice(&x);
+                oy.extend_from_slice(&y);
+                oz.extend_from_slice(&z);
+                continue;
+            }
+            let mut bits = !hidden & 0xff;
+            while bits != 0 {
+                let l = bits.trailing_zeros() as usize & 7;
+                bits &= bits - 1;
+                ox.push(x[l]);
+                oy.push(y[l]);
+                oz.push(z[l]);
+            }
+        }
+        let n = ox.len();
+        let whole = n.div_ceil(8) * 8;
+        for v in [ox, oy, oz] {
+            v.resize(whole, 0.0);
+        }
+        n
+    }
+
+    /// Sums over the open directions. Where the field is f, the sample's weight w is that of
+    /// inside or outside and v = (d, 1): M = Σ w v vᵀ, b = −Σ w clamp(f, ±e) v.
+    fn sum(&self, ball: &Ball, open: &[Vec<f32>; 3], exposed: usize) -> Normal {
+        let zero = f32x8::splat(0.0);
+        let (mut m, mut b) = ([zero; 10], [zero; 4]);
+        let width = f32x8::splat(self.width);
+        let (inside, outside) =
+            (f32x8::splat(self.weights.inside), f32x8::splat(self.weights.outside));
+        let radius = f32x8::splat(ball.radius);
+        let lanes = |v: &Vec<f32>, k: usize| {
+            let mut out = [0.0; 8];
+            if let Some(part) = v.get(k..k + 8) {
+                out.copy_from_slice(part);
+            }
+            f32x8::new(out)
+        };
+        for k in (0..open[0].len()).step_by(8) {
+            let d = [0, 1, 2].map(|a| lanes(&open[a], k));
+            let places = [0, 1, 2].map(|a| d[a] * radius + ball.center[a]);
+            let f = self.field.at(places);
+            let mut w = f.simd_lt(zero).select(inside, outside);
+            if k + 8 > exposed {
+                w *= f32x8::new(std::array::from_fn(|l| f32::from(u8::from(k + l < exposed))));
+            }
+            let pull = w * f.fast_max(-width).fast_min(width);
+            let [x, y, z] = d;
+            let (wx, wy, wz) = (w * x, w * y, w * z);
+            for (sum, v) in
+                m.iter_mut().zip([wx * x, wx * y, wx * z, wx, wy * y, wy * z, wy, wz * z, wz, w])
+            {
+                *sum += v;
+            }
+            for (sum, v) in b.iter_mut().zip([pull * x, pull * y, pull * z, pull]) {
+                *sum -= v;
+            }
+        }
+        let total = |v: f32x8| v.to_array().iter().map(|&x| f64::from(x)).sum::<f64>();
+        Normal { m: m.map(total), b: b.map(total), exposed }
+    }
+}
+
+/// The caps of `ball` that `others` hide, the most hiding first; false when one hides it all.
+fn caps_of<'b>(ball: &Ball, others: impl Iterator<Item = &'b Ball>, caps: &mut Vec<Cap>) -> bool {
+    caps.clear();
+    let r2 = ball.radius * ball.radius;
+    for other in others {
+        let way = ball.way(other);
+        let apart = ball.apart(other);
+        // The point in direction d is hidden when d · way > along.
+        let along = (r2 + apart - other.radius * other.radius) / (2.0 * ball.radius);
+        let distance = apart.sqrt();
+        if along >= distance {
+            continue;
+        }
+        if along < -distance {
+            return false;
+        }
+        // Now the distance is greater than zero, or one of two equal balls hides nothing.
+        let inverse = 1.0 / distance.max(f32::MIN_POSITIVE);
+        caps.push(Cap { axis: way.map(|v| v * inverse), cos: along * inverse });
+    }
+    caps.sort_unstable_by(|x, y| x.cos.total_cmp(&y.cos));
+    true
+}
+
+#[cfg(test)]
+#[path = "exposed_tests.rs"]
+mod tests;

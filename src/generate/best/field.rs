@@ -1,0 +1,127 @@
+//! The signed distance field as the refinement reads it: trilinear between cell centres, clamped
+//! to the grid outside it, eight places at a time.
+
+use crate::solid::Grid;
+use wide::f32x8;
+
+/// Values at cell centres.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Field<'a> {
+    values: &'a [f32],
+    /// Cells along x, and of a layer.
+    stride: [usize; 2],
+    /// The first cell centre, and cells to a length.
+    origin: [f32; 3],
+    inverse: [f32; 3],
+    /// Just below the last cell centre, in cells from the first.
+    last: [f32; 3],
+}
+
+impl<'a> Field<'a> {
+    /// Of a grid with at least two cells along each axis.
+    pub(super) fn new(grid: &Grid, values: &'a [f32]) -> Field<'a> {
+        let first = grid.center(0, 0, 0);
+        Field {
+            values,
+            stride: [grid.dims[0], grid.dims[0] * grid.dims[1]],
+            origin: [0, 1, 2].map(|a| first[a] as f32),
+            inverse: [0, 1, 2].map(|a| (1.0 / grid.spacing[a]) as f32),
+            last: grid.dims.map(|n| (n.saturating_sub(1) as f32).next_down().max(0.0)),
+        }
+    }
+
+    /// Cell edge, the longest.
+    pub(super) fn cell(&self) -> f32 {
+        let [x, y, z] = self.inverse;
+        1.0 / x.min(y).min(z)
+    }
+
+    /// The values at eight places.
+    #[inline(always)]
+    pub(super) fn at(&self, places: [f32x8; 3]) -> f32x8 {
+        let zero = f32x8::splat(0.0);
+        let mut base = [[0i32; 8]; 3];
+        let mut t = [zero; 3];
+        for a in 0..3 {
+            let u = (places[a] - self.origin[a]) * self.inverse[a];
+            let u = u.fast_max(zero).fast_min(f32x8::splat(self.last[a]));
+            let whole = u.fast_trunc_int();
+            t[a] = u - f32x8::from_i32x8(whole);
+            base[a] = whole.to_array();
+        }
+        let mut corner = [[0.0f32; 8]; 8];
+        let [row, layer] = self.stride;
+        for l in 0..8 {
+            let at = base[0][l] as usize + row * base[1][l] as usize + layer * base[2][l] as usize;
+            for (k, start) in [at, at + row, at + layer, at + layer + row].into_iter().enumerate() {
+                let pair = &self.values[start..start + 2];
+                corner[2 * k][l] = pair[0];
+                corner[2 * k + 1][l] = pair[1];
+            }
+        }
+        let c = corner.map(f32x8::new);
+        let along = |a: f32x8, b: f32x8, t: f32x8| a + (b - a) * t;
+        let x = [0, 1, 2, 3].map(|k: usize| along(c[2 * k], c[2 * k + 1], t[0]));
+        along(along(x[0], x[1], t[1]), along(x[2], x[3], t[1]), t[2])
+    }
+
+    /// The value at one place.
+    pub(super) fn one(&self, p: [f32; 3]) -> f32 {
+        let mut at = 0;
+        let mut t = [0.0; 3];
+        let stride = [1, self.stride[0], self.stride[1]];
+        for a in 0..3 {
+            let u = ((p[a] - self.origin[a]) * self.inverse[a]).max(0.0).min(self.last[a]);
+            at += u as usize * stride[a];
+            t[a] = u - (u as usize) as f32;
+        }
+        let along = |a: f32, b: f32, t: f32| a + (b - a) * t;
+        let [row, layer] = self.stride;
+        let x = [at, at + row, at + layer, at + layer + row]
+            .map(|at| along(self.values[at], self.values[at + 1], t[0]));
+        along(along(x[0], x[1], t[1]), along(x[2], x[3], t[1]), t[2])
+    }
+
+    /// The slope at a place, over a cell.
+    pub(super) fn slope(&self, p: [f32; 3]) -> [f32; 3] {
+        [0, 1, 2].map(|a| {
+            let (mut q, h) = (p, 0.5 / self.inverse[a]);
+            q[a] = p[a] + h;
+            let up = self.one(q);
+            q[a] = p[a] - h;
+            (up - self.one(q)) * self.inverse[a]
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::Vec3;
+
+    #[test]
+    fn eight_places_are_those_of_the_grid() {
+        let grid = Grid {
+            dims: [5, 4, 6],
+            spacing: Vec3::new(0.1, 0.2, 0.15),
+            origin: Vec3::new(-0.2, -0.3, -0.1),
+        };
+        let values: Vec<f32> = (0..grid.len()).map(|i| ((i * 7919) % 101) as f32 * 0.01).collect();
+        let field = Field::new(&grid, &values);
+        let mut random = super::super::random::Random::new(1, 1);
+        for _ in 0..200 {
+            // Also outside the grid.
+            let mut p = [[0.0f32; 8]; 3];
+            for v in p.iter_mut().flatten() {
+                *v = random.between(-0.6, 1.2) as f32;
+            }
+            let all = field.at(p.map(f32x8::new)).to_array();
+            for l in 0..8 {
+                let q = [p[0][l], p[1][l], p[2][l]];
+                let exact = grid.trilinear(&values, &Vec3::from(q.map(f64::from)));
+                assert!((f64::from(all[l]) - exact).abs() < 1e-5, "{q:?} {} {exact}", all[l]);
+                assert!((f64::from(field.one(q)) - exact).abs() < 1e-5);
+            }
+        }
+    }
+}

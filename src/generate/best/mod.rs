@@ -1,0 +1,151 @@
+//! The generator of least mismatch: for a number of spheres, the clump whose union is closest to
+//! the target by volume.
+//!
+//! A greedy cover by grown medial balls; then all balls move and grow at once so that the exposed
+//! surface comes to lie on the target's, in a loss that turns from least squares of distances
+//! into the volume between the surfaces; then single balls are moved to where they help more,
+//! with what is around them refined, and kept when the mismatch by exact columns falls.
+
+mod ball;
+#[allow(dead_code)] // Used by the search that follows.
+mod cover;
+mod dexels;
+mod directions;
+mod effort;
+mod exposed;
+mod field;
+mod greedy;
+mod medial;
+mod near;
+#[allow(dead_code)]
+mod random;
+mod refine;
+mod seeds;
+#[cfg(test)]
+mod test_bodies;
+
+pub use effort::Effort;
+
+use super::GenerateOptions;
+use crate::clump::{Clump, Stopped};
+use crate::error::{Error, Result};
+use crate::math::{Sphere, Vec3};
+use crate::run::Run;
+use crate::shape::Body;
+use crate::solid::Solid;
+use cover::Cover;
+use dexels::{Dexels, Seen};
+use directions::Directions;
+use exposed::Weights;
+use field::Field;
+use random::Random;
+use refine::{Radii, Refiner, Schedule, Task};
+
+/// Most spheres of a clump.
+const MOST: usize = 100_000;
+/// Least radius, as a part of the body's size.
+const LEAST: f64 = 0.002;
+/// Huber's width at the first and the last iteration, as parts of the body's size.
+const WIDE: f32 = 0.03;
+const NARROW: f32 = 0.0015;
+
+/// Makes a clump.
+pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
+    let n = check(options)?;
+    run.check(0.0, "measuring the distances of cells")?;
+    let field = Field::new(solid.grid(), solid.distance(run)?);
+    let (low, high) = bounds(solid)?;
+    let plan = options.effort.plan(n);
+    let dexels = Dexels::new(solid.body(), &low, &high, plan.columns, run.pool())?;
+    run.count(|c| {
+        c.columns += (dexels.dims[0] * dexels.dims[1]) as u64;
+        c.peak_bytes = c.peak_bytes.max(solid.bytes() + dexels.bytes());
+    });
+    // The length for which the widths were found: a body of a fifth of its box's cube has 1.
+    let size = (solid.unit_moments().volume / 0.2).cbrt();
+    let radii = Radii {
+        least: (LEAST * size).max(options.min_radius / solid.frame().scale) as f32,
+        most: f32::MAX,
+    };
+    let mut random = Random::new(run.seed(), 0);
+    let mut balls = seeds::seeds(&field, &dexels, &plan, n, &radii, size as f32, &mut random)?;
+    let all: Vec<u32> = (0..n as u32).collect();
+    let directions = Directions::new(plan.directions);
+    let task = Task { field: &field, directions: &directions, weights: Weights::at(0.0), radii };
+    let schedule = Schedule {
+        iterations: plan.iterations,
+        from: WIDE * size as f32,
+        to: NARROW * size as f32,
+    };
+    let mut stopped = Stopped::Spheres;
+    let mut done = 0.0;
+    let mut go = || {
+        done += 1.0 / plan.iterations as f64;
+        if run.cancelled(0.1 + 0.3 * done) {
+            stopped = Stopped::Cancelled;
+        } else if run.late() {
+            stopped = Stopped::Deadline;
+        }
+        stopped == Stopped::Spheres
+    };
+    let shared = (n >= SHARED).then(|| run.pool());
+    Refiner::default().refine(&task, &schedule, &mut balls, &all, &mut random, shared, &mut go);
+    let mut cover = Cover::new(&dexels)?;
+    let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
+    let d = cover.whole(&dexels, &seen).mismatch(dexels.target);
+    balls.sort_by(|x, y| y.radius.total_cmp(&x.radius));
+    let spheres: Vec<Sphere> =
+        balls.iter().map(|b| solid.frame().sphere_to_input(&b.sphere())).collect();
+    let note = match stopped {
+        Stopped::Deadline => format!("the deadline passed at a mismatch of about {d:.4}"),
+        Stopped::Cancelled => format!("cancelled by the caller at a mismatch of about {d:.4}"),
+        _ => String::new(),
+    };
+    Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
+}
+
+/// From so many balls on, threads share them in an iteration.
+const SHARED: usize = 400;
+
+/// The number of spheres.
+fn check(o: &GenerateOptions) -> Result<usize> {
+    let only_mss = |name: &str| {
+        Err(Error::InvalidArgument(format!("{name} is an option of the method mss, not of best")))
+    };
+    if o.min_distance != 0.0 {
+        return only_mss("min_distance");
+    }
+    if o.radius_offset != 0.0 {
+        return only_mss("radius_offset");
+    }
+    if o.confine {
+        return only_mss("confine");
+    }
+    if o.spheres == 0 {
+        return Err(Error::InvalidArgument(
+            "the method best needs a number of spheres, and it is 0".into(),
+        ));
+    }
+    if o.spheres > MOST {
+        return Err(Error::InvalidArgument(format!(
+            "{} spheres are asked of the method best, more than {MOST}",
+            o.spheres
+        )));
+    }
+    Ok(o.spheres)
+}
+
+/// Bounding box of the body.
+fn bounds(solid: &Solid) -> Result<(Vec3, Vec3)> {
+    let empty = || Error::Empty("the target has no vertex and no cell".into());
+    match solid.body() {
+        Body::Voxels(v) => {
+            let dims = Vec3::from(v.dims.map(|d| d as f64));
+            Ok((Vec3::zeros(), dims.component_mul(&v.spacing)))
+        }
+        Body::Mesh(m) => {
+            let first = m.vertices.first().ok_or_else(empty)?;
+            Ok(m.vertices.iter().fold((*first, *first), |(l, h), v| (l.inf(v), h.sup(v))))
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! Which balls may hide parts of which: lists that stay right while no ball has moved and grown
+//! by more than half of a slack, so that they are made anew only now and then.
+
+use super::ball::Ball;
+
+/// Up to so many balls, all are compared with all.
+const FEW: usize = 96;
+
+/// For each of some balls, those that meet it or may soon.
+#[derive(Debug, Default, Clone)]
+pub(super) struct Near {
+    starts: Vec<u32>,
+    lists: Vec<u32>,
+    /// Balls looked at while making the lists.
+    pub looks: u64,
+    cells: Cells,
+}
+
+/// Balls by the cells of a grid that their boxes touch.
+#[derive(Debug, Default, Clone)]
+struct Cells {
+    low: [f32; 3],
+    inverse: f32,
+    dims: [usize; 3],
+    starts: Vec<u32>,
+    members: Vec<u32>,
+    /// The last ball that each ball was seen for.
+    seen: Vec<u32>,
+}
+
+impl Near {
+    /// The lists of the balls `of` among all `balls`.
+    pub(super) fn make(&mut self, balls: &[Ball], of: &[u32], slack: f32) {
+        self.starts.clear();
+        self.lists.clear();
+        self.starts.push(0);
+        if balls.len() <= FEW || of.len() * 8 < balls.len() {
+            self.looks += (of.len() * balls.len()) as u64;
+            for &i in of {
+                let ball = &balls[i as usize];
+                for (j, other) in (0u32..).zip(balls) {
+                    if j != i && ball.meets(other, slack) {
+                        self.lists.push(j);
+                    }
+                }
+                self.starts.push(self.lists.len() as u32);
+            }
+            return;
+        }
+        self.cells.sort(balls, slack);
+        for &i in of {
+            let first = self.lists.len();
+            let ball = &balls[i as usize];
+            let Cells { low, inverse, dims, starts, members, seen } = &mut self.cells;
+            let cells = Cells::over(low, *inverse, dims, ball, slack);
+            for z in cells[2][0]..=cells[2][1] {
+                for y in cells[1][0]..=cells[1][1] {
+                    let row = dims[0] * (y + dims[1] * z);
+                    for c in row + cells[0][0]..=row + cells[0][1] {
+                        for &j in &members[starts[c] as usize..starts[c + 1] as usize] {
+                            self.looks += 1;
+                            if std::mem::replace(&mut seen[j as usize], i) != i
+                                && j != i
+                                && ball.meets(&balls[j as usize], slack)
+                            {
+                                self.lists.push(j);
+                            }
+                        }
+                    }
+                }
+            }
+            // As by comparing all with all.
+            self.lists[first..].sort_unstable();
+            self.starts.push(self.lists.len() as u32);
+        }
+    }
+
+    /// The list of the ball that came `k`th.
+    #[inline(always)]
+    pub(super) fn of(&self, k: usize) -> &[u32] {
+        &self.lists[self.starts[k] as usize..self.starts[k + 1] as usize]
+    }
+}
+
+impl Cells {
+    /// Cells about as wide as the mean ball.
+    fn sort(&mut self, balls: &[Ball], slack: f32) {
+        let (mut low, mut high) = ([f32::MAX; 3], [f32::MIN; 3]);
+        let mut sum = 0.0f64;
+        for b in balls {
+            for a in 0..3 {
+                low[a] = low[a].min(b.center[a] - b.radius - slack);
+                high[a] = high[a].max(b.center[a] + b.radius + slack);
+            }
+            sum += f64::from(b.radius);
+        }
+        let edge = (2.0 * sum / balls.len().max(1) as f64) as f32;
+        let longest = (0..3).map(|a| high[a] - low[a]).fold(0.0, f32::max);
+        // Never more than 64 cells along an edge.
+        let edge = edge.max(longest / 64.0).max(f32::MIN_POSITIVE);
+        self.low = low;
+        self.inverse = 1.0 / edge;
+        self.dims = [0, 1, 2].map(|a| ((high[a] - low[a]) * self.inverse) as usize + 1);
+        let total = self.dims[0] * self.dims[1] * self.dims[2];
+        self.starts.clear();
+        self.starts.resize(total + 2, 0);
+        self.seen.clear();
+        self.seen.resize(balls.len(), u32::MAX);
+        let (low, inverse, dims) = (self.low, self.inverse, self.dims);
+        let each = |f: &mut dyn FnMut(u32, usize)| {
+            for (i, b) in (0u32..).zip(balls) {
+                let r = Cells::over(&low, inverse, &dims, b, 0.0);
+                for z in r[2][0]..=r[2][1] {
+                    for y in r[1][0]..=r[1][1] {
+                        let row = dims[0] * (y + dims[1] * z);
+                        (row + r[0][0]..=row + r[0][1]).for_each(|c| f(i, c));
+                    }
+                }
+            }
+        };
+        let starts = &mut self.starts;
+        each(&mut |_, c| starts[c + 2] += 1);
+        for c in 2..starts.len() {
+            starts[c] += starts[c - 1];
+        }
+        self.members.clear();
+        self.members.resize(starts.last().map_or(0, |&n| n as usize), 0);
+        let members = &mut self.members;
+        each(&mut |i, c| {
+            members[starts[c + 1] as usize] = i;
+            starts[c + 1] += 1;
+        });
+    }
+
+    /// First and last cell along each axis that a ball's box touches.
+    fn over(
+        low: &[f32; 3],
+        inverse: f32,
+        dims: &[usize; 3],
+        b: &Ball,
+        slack: f32,
+    ) -> [[usize; 2]; 3] {
+        [0, 1, 2].map(|a| {
+            [b.center[a] - b.radius - slack, b.center[a] + b.radius + slack]
+                .map(|x| (((x - low[a]) * inverse).max(0.0) as usize).min(dims[a] - 1))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::random::Random;
+    use super::*;
+
+    fn balls(n: usize, seed: u64) -> Vec<Ball> {
+        let mut random = Random::new(seed, 0);
+        let size = 0.6 / (n as f64).cbrt();
+        (0..n)
+            .map(|_| Ball {
+                center: [0; 3].map(|_| random.unit() as f32),
+                radius: (size * random.between(0.05, 1.5)) as f32,
+            })
+            .collect()
+    }
+
+    #[test]
+    fn lists_by_cells_are_those_by_comparing_all() {
+        for n in [97, 200, 700] {
+            let balls = balls(n, n as u64);
+            let of: Vec<u32> = (0..n as u32).collect();
+            let mut near = Near::default();
+            near.make(&balls, &of, 0.02);
+            for i in 0..n {
+                let all: Vec<u32> = (0..n as u32)
+                    .filter(|&j| j as usize != i && balls[i].meets(&balls[j as usize], 0.02))
+                    .collect();
+                assert_eq!(near.of(i), all, "{i} of {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn looks_grow_with_the_number_of_balls() {
+        let looks = |n: usize| {
+            let balls = balls(n, 5);
+            let of: Vec<u32> = (0..n as u32).collect();
+            let mut near = Near::default();
+            near.make(&balls, &of, 0.0);
+            near.looks as f64 / n as f64
+        };
+        let (few, many) = (looks(600), looks(4800));
+        assert!(many < 2.0 * few, "{few} {many}");
+    }
+}

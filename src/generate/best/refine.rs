@@ -1,0 +1,163 @@
+//! Refinement: all balls at once take a Gauss–Newton step towards the place where the exposed
+//! surface lies on the target's, in the sense of Huber's loss; its width falls from iteration to
+//! iteration, so that least squares of distances become least volume between the surfaces.
+
+use super::ball::Ball;
+use super::directions::Directions;
+use super::exposed::{Normal, Sampler, Scratch, Weights};
+use super::field::Field;
+use super::near::Near;
+use super::random::Random;
+use crate::run::Pool;
+use wide::f32x8;
+
+/// Part of the step that is taken.
+const STEP: f64 = 0.8;
+/// Part of the last change that is added.
+const MOMENTUM: f32 = 0.6;
+/// Damping of the normal equations, for each direction.
+const DAMPING: f64 = 0.003;
+/// Balls worked on together when threads share them.
+const CHUNK: usize = 64;
+/// Of the mean radius: how far balls may move before lists are made anew.
+const SLACK: f32 = 0.3;
+
+/// How many iterations, and Huber's width at the first and the last.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Schedule {
+    pub iterations: usize,
+    pub from: f32,
+    pub to: f32,
+}
+
+/// What radii may be.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Radii {
+    pub least: f32,
+    pub most: f32,
+}
+
+/// What does not change while balls are refined.
+#[derive(Clone, Copy)]
+pub(super) struct Task<'a> {
+    pub field: &'a Field<'a>,
+    pub directions: &'a Directions,
+    pub weights: Weights,
+    pub radii: Radii,
+}
+
+/// Buffers.
+#[derive(Debug, Default, Clone)]
+pub(super) struct Refiner {
+    near: Near,
+    scratch: Scratch,
+    turned: Vec<[f32x8; 3]>,
+    /// Change of centre and radius of each ball in the last iteration.
+    speed: Vec<[f32; 4]>,
+    step: Vec<[f32; 4]>,
+}
+
+impl Refiner {
+    /// Refines the balls `of`, the others stay. `pool`: threads that share the balls; the result
+    /// does not depend on it. `go` is asked after every iteration whether to go on.
+    #[expect(clippy::too_many_arguments)]
+    pub(super) fn refine(
+        &mut self,
+        task: &Task,
+        schedule: &Schedule,
+        balls: &mut [Ball],
+        of: &[u32],
+        random: &mut Random,
+        pool: Option<&Pool>,
+        go: &mut dyn FnMut() -> bool,
+    ) {
+        let Refiner { near, scratch, turned, speed, step } = self;
+        speed.clear();
+        speed.resize(of.len(), [0.0; 4]);
+        step.clear();
+        step.resize(of.len(), [0.0; 4]);
+        let sum: f64 = of.iter().map(|&i| f64::from(balls[i as usize].radius)).sum();
+        let slack = SLACK * (sum / of.len().max(1) as f64) as f32;
+        let mut moved = f32::MAX;
+        let shrink = schedule.to / schedule.from;
+        for k in 0..schedule.iterations {
+            let done = k as f32 / (schedule.iterations.max(2) - 1) as f32;
+            let width = schedule.from * shrink.powf(done);
+            if moved >= 0.5 * slack {
+                near.make(balls, of, slack);
+                moved = 0.0;
+            }
+            task.directions.turned(&random.rotation(), turned);
+            let sampler =
+                Sampler { field: task.field, directions: turned, weights: task.weights, width };
+            let one = |k: usize, scratch: &mut Scratch| {
+                let others = near.of(k).iter().map(|&j| &balls[j as usize]);
+                let normal = sampler.normal(&balls[of[k] as usize], others, scratch);
+                solve(&normal, DAMPING * task.directions.len() as f64)
+                    .map(|x| ((STEP * x) as f32).clamp(-2.0 * width, 2.0 * width))
+            };
+            match pool {
+                Some(pool) => pool.chunks_mut(step, CHUNK, |c, steps| {
+                    let mut scratch = Scratch::default();
+                    for (k, step) in steps.iter_mut().enumerate() {
+                        *step = one(c * CHUNK + k, &mut scratch);
+                    }
+                }),
+                None => step.iter_mut().enumerate().for_each(|(k, s)| *s = one(k, scratch)),
+            }
+            let mut most = 0.0f32;
+            for ((&i, speed), step) in of.iter().zip(speed.iter_mut()).zip(step.iter()) {
+                let ball = &mut balls[i as usize];
+                for (speed, step) in speed.iter_mut().zip(step) {
+                    *speed = MOMENTUM * *speed + step;
+                }
+                for (x, by) in ball.center.iter_mut().zip(speed.iter()) {
+                    *x += by;
+                }
+                let radius = ball.radius + speed[3];
+                ball.radius = radius.max(task.radii.least).min(task.radii.most);
+                if ball.radius != radius {
+                    speed[3] = 0.0;
+                }
+                let [x, y, z, r] = *speed;
+                most = most.max((x * x + y * y + z * z).sqrt() + r.abs());
+            }
+            moved += most;
+            if !go() {
+                break;
+            }
+        }
+    }
+}
+
+/// `(M + damping · diag(⅓, ⅓, ⅓, 1))⁻¹ b` by Cholesky's method.
+fn solve(normal: &Normal, damping: f64) -> [f64; 4] {
+    let m = &normal.m;
+    let d = damping / 3.0;
+    let a = [
+        [m[0] + d, 0.0, 0.0, 0.0],
+        [m[1], m[4] + d, 0.0, 0.0],
+        [m[2], m[5], m[7] + d, 0.0],
+        [m[3], m[6], m[8], m[9] + damping],
+    ];
+    let mut l = [[0.0f64; 4]; 4];
+    for i in 0..4 {
+        for j in 0..=i {
+            let sum: f64 = a[i][j] - (0..j).map(|k| l[i][k] * l[j][k]).sum::<f64>();
+            if i == j {
+                // Rounding cannot make it vanish: the damping is a thousandth of the trace.
+                l[i][i] = sum.max(1e-3 * d).sqrt();
+            } else {
+                l[i][j] = sum / l[j][j];
+            }
+        }
+    }
+    let mut x = normal.b;
+    for i in 0..4 {
+        x[i] = (x[i] - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>()) / l[i][i];
+    }
+    for i in (0..4).rev() {
+        x[i] = (x[i] - (i + 1..4).map(|k| l[k][i] * x[k]).sum::<f64>()) / l[i][i];
+    }
+    x
+}

@@ -1,0 +1,119 @@
+//! The generator of least mismatch from outside.
+
+#![allow(clippy::unwrap_used)]
+
+use morula::clump::Stopped;
+use morula::generate::{Effort, GenerateOptions, Method, generate};
+use morula::measure::{QualityOptions, quality};
+use morula::shape::primitive::Primitive;
+use morula::shape::{ImportOptions, Shape};
+use morula::solid::SolidOptions;
+use morula::{Clump, Error, Run, Solid};
+
+fn solid(name: &str, cells: u32) -> Solid {
+    let run = Run::serial();
+    let primitive = Primitive::from_name(name).unwrap();
+    let shape = Shape::from_primitive(&primitive, 48, &ImportOptions::default(), &run).unwrap();
+    let resolution = morula::solid::Resolution::CellsLongest(cells);
+    Solid::new(&shape, &SolidOptions { resolution, ..SolidOptions::default() }, &run).unwrap()
+}
+
+fn ask(spheres: usize, effort: Effort) -> GenerateOptions {
+    GenerateOptions { method: Method::Best, spheres, effort, ..GenerateOptions::default() }
+}
+
+fn mismatch(solid: &Solid, clump: &Clump) -> f64 {
+    let options = QualityOptions { surface: false, ..QualityOptions::default() };
+    quality(solid, &clump.spheres, &options, &Run::serial()).unwrap().mismatch
+}
+
+#[test]
+fn any_number_of_spheres_is_honoured() {
+    let solid = solid("ellipsoid", 40);
+    for n in [1, 2, 3, 7, 64, 450] {
+        let clump = generate(&solid, &ask(n, Effort::Draft), &Run::serial()).unwrap();
+        assert_eq!((clump.spheres.len(), clump.stopped), (n, Stopped::Spheres));
+        assert!(clump.note.is_empty());
+        assert!(clump.spheres.iter().all(|s| s.radius > 0.0 && s.radius < 1.0));
+    }
+}
+
+#[test]
+fn a_sphere_is_one_sphere() {
+    let solid = solid("sphere", 40);
+    let clump = generate(&solid, &ask(1, Effort::Draft), &Run::serial()).unwrap();
+    let s = clump.spheres[0];
+    assert!(s.center.norm() < 0.01 && (s.radius - 1.0).abs() < 0.01, "{s:?}");
+}
+
+#[test]
+fn the_same_bytes_come_out_for_any_number_of_threads() {
+    let solid = solid("torus", 40);
+    for (n, effort) in [(12, Effort::Draft), (12, Effort::Normal), (420, Effort::Draft)] {
+        let make = |threads: usize, seed: u64| {
+            let run = Run::new(threads).unwrap().with_seed(seed);
+            generate(&solid, &ask(n, effort), &run).unwrap().spheres
+        };
+        let one = make(1, 0);
+        assert_eq!(one, make(2, 0));
+        assert_eq!(one, make(8, 0));
+        assert_ne!(one, make(1, 1));
+    }
+}
+
+#[test]
+fn a_deadline_gives_what_there_is() {
+    let solid = solid("torus", 40);
+    let run = Run::serial().with_deadline(0.0);
+    let clump = generate(&solid, &ask(20, Effort::Thorough), &run).unwrap();
+    assert_eq!((clump.spheres.len(), clump.stopped), (20, Stopped::Deadline));
+    assert!(clump.note.contains("deadline"), "{}", clump.note);
+}
+
+#[test]
+fn a_cancel_gives_what_there_is_or_says_that_there_is_nothing() {
+    let solid = solid("torus", 40);
+    let at_once = Run::serial().with_progress(Box::new(|_| true));
+    let result = generate(&solid, &ask(20, Effort::Normal), &at_once);
+    assert!(matches!(result, Err(Error::Cancelled(_))));
+    let later = Run::serial().with_progress(Box::new(|f| f > 0.2));
+    let clump = generate(&solid, &ask(20, Effort::Normal), &later).unwrap();
+    assert_eq!((clump.spheres.len(), clump.stopped), (20, Stopped::Cancelled));
+}
+
+#[test]
+fn it_is_far_closer_than_mss() {
+    for (name, n, part) in [("box", 12, 0.7), ("torus", 20, 0.6), ("cone", 20, 0.6)] {
+        let solid = solid(name, 64);
+        let best = generate(&solid, &ask(n, Effort::Normal), &Run::serial()).unwrap();
+        let mss = GenerateOptions { spheres: n, ..GenerateOptions::default() };
+        let mss = generate(&solid, &mss, &Run::serial()).unwrap();
+        let (best, mss) = (mismatch(&solid, &best), mismatch(&solid, &mss));
+        assert!(best < part * mss, "{name}: {best} {mss}");
+    }
+}
+
+#[test]
+fn options_of_other_methods_are_refused() {
+    let solid = solid("sphere", 24);
+    let o = ask(5, Effort::Draft);
+    for bad in [
+        GenerateOptions { min_distance: 1.0, ..o.clone() },
+        GenerateOptions { radius_offset: 1.0, ..o.clone() },
+        GenerateOptions { confine: true, ..o.clone() },
+        GenerateOptions { spheres: 0, mismatch: 0.1, ..o.clone() },
+        GenerateOptions { spheres: usize::MAX, ..o.clone() },
+    ] {
+        let result = generate(&solid, &bad, &Run::serial());
+        assert!(matches!(result, Err(Error::InvalidArgument(_))), "{bad:?}");
+    }
+}
+
+#[test]
+fn radii_stay_above_the_least() {
+    let solid = solid("box", 40);
+    let o = GenerateOptions { min_radius: 0.11, ..ask(40, Effort::Normal) };
+    let clump = generate(&solid, &o, &Run::serial()).unwrap();
+    assert_eq!(clump.spheres.len(), 40);
+    assert!(clump.spheres.iter().all(|s| s.radius >= 0.11 * (1.0 - 1e-6)));
+}
