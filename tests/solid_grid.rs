@@ -245,6 +245,38 @@ fn thin_shapes_get_enough_cells_and_say_so() {
     assert!(matches!(e, Err(Error::Empty(_))));
 }
 
+#[test]
+fn a_very_thin_plate_is_a_cell_thick_or_says_what_it_takes() {
+    // Four cells across would be 190 million: it gets one, however little was asked for.
+    let plate = cuboid([100.0, 100.0, 0.1]);
+    for asked in [64, 600] {
+        let s = solid(&plate, Resolution::CellsLongest(asked));
+        assert_eq!(s.grid().dims[2], 1 + 2 * 4);
+        assert!(s.grid().len() <= 16 << 20);
+        let volume = cells_in(&s) as f64 * (s.grid().spacing.x * s.frame().scale).powi(3);
+        assert!((volume / 1000.0 - 1.0).abs() < 0.15, "{volume}");
+        let text = s.notes().join("\n");
+        assert!(text.contains("about 0.90 cells of 1.109e-1 lie across its thickness of 9.980e-2"));
+        assert!(text.contains("for 4.0 ask for cells of 2.500e-2, 4000 along its longest edge"));
+    }
+    // Thinner, one cell would be too many as well: what was asked for is short of it, and what
+    // the error names is not.
+    let plate = cuboid([160.0, 0.1, 160.0]);
+    let e = refused(&plate, &options(Resolution::CellsLongest(64)));
+    let text = e.to_string();
+    assert!(matches!(e, Error::Empty(_)));
+    assert!(
+        text.contains("about 0.40 cells of 2.500e-1 lie across its thickness of 9.988e-2"),
+        "{text}"
+    );
+    assert!(text.contains("for 1.5 ask for cells of 6.658e-2, 2403 along its longest"), "{text}");
+    assert!(text.contains("1.4e9 bytes"), "{text}");
+    assert!(cells_in(&solid(&plate, Resolution::CellsLongest(2403))) > 2400 * 2400);
+    // It refers to the caller's unit, and a size that was asked for is kept.
+    let e = refused(&plate, &options(Resolution::CellSize(0.3)));
+    assert!(e.to_string().contains("about 0.33 cells of 3.000e-1"), "{e}");
+}
+
 fn refused(shape: &Shape, o: &SolidOptions) -> Error {
     Solid::new(shape, o, &Run::serial()).err().unwrap()
 }

@@ -88,13 +88,18 @@ impl Grid {
 pub const BYTES_PER_CELL: u64 = 24;
 /// Most cells of a grid.
 const MOST_CELLS: u64 = 1 << 31;
-/// Most cells that a grid made finer for a thin shape may have.
+/// Most cells that a grid made finer for a thin shape may have (100 MB, some seconds).
 const MOST_REFINED: f64 = (4u64 << 20) as f64;
+/// The same where fewer would not show the shape at all.
+const MOST_NEEDED: f64 = (16u64 << 20) as f64;
 /// Cells wanted across the shortest edge of the box.
 const ACROSS_BOX: f64 = 4.0;
 /// Cells wanted across the mean thickness 2V/A (the thickness of a plate; half the
 /// diameter of a rod; a third of a ball's).
 const ACROSS_THICKNESS: f64 = 1.5;
+/// Fewest cells across it that show a plate: a little below 1, which makes it one cell thick,
+/// not two that are half covered.
+const ACROSS_LEAST: f64 = 0.9;
 
 /// Makes the solid: grid, inside, moments.
 pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<Solid> {
@@ -219,16 +224,21 @@ fn of_mesh(
     // Finer for a thin shape, as far as that stays cheap.
     let thickness = 2.0 * moments.volume / moments::area(mesh);
     let wanted = (edges.min() / ACROSS_BOX).min(thickness / ACROSS_THICKNESS);
-    let most = MOST_REFINED.min((options.memory_limit / BYTES_PER_CELL) as f64);
-    let fits = |h: f64| dims_of(h).iter().product::<f64>() <= most;
+    let least = thickness / ACROSS_LEAST;
+    let room = (options.memory_limit / BYTES_PER_CELL) as f64;
+    let cells_of = |h: f64| dims_of(h).iter().product::<f64>();
+    let fits = |h: f64, most: f64| cells_of(h) <= most.min(room);
     let mut h = asked;
     if may_refine && wanted < asked {
-        if fits(wanted) {
+        if fits(wanted, MOST_REFINED) {
             h = wanted;
-        } else if fits(asked) {
+        } else {
             // The finest of 64 steps between the two that fits.
             let step = |i: u32| asked * (wanted / asked).powf(f64::from(i) / 64.0);
-            h = (0..64).rev().map(step).find(|&h| fits(h)).unwrap_or(asked);
+            h = (1..64).rev().map(step).find(|&h| fits(h, MOST_REFINED)).unwrap_or(asked);
+        }
+        if h > least && fits(least, MOST_NEEDED) {
+            h = least;
         }
     }
     let scale = shape.frame.scale;
@@ -240,12 +250,22 @@ fn of_mesh(
             asked * scale
         ));
     }
-    if wanted < h * (1.0 - 1e-9) {
-        notes.push(format!(
-            "the shape is thin: about {:.1} cells lie across its thickness of {:.3e}",
+    // How many cells lie across the shape, and what to ask for to have enough of them.
+    let short_of = |enough: f64| {
+        format!(
+            "about {:.2} cells of {:.3e} lie across its thickness of {:.3e}; for {:.1} ask for cells \
+             of {:.3e}, {} along its longest edge (which may take {:.1e} bytes)",
             thickness / h,
-            thickness * scale
-        ));
+            h * scale,
+            thickness * scale,
+            thickness / enough,
+            enough * scale,
+            (edges.max() / enough).ceil(),
+            cells_of(enough) * BYTES_PER_CELL as f64
+        )
+    };
+    if wanted < h * (1.0 - 1e-9) {
+        notes.push(format!("the shape is thin: {}", short_of(wanted)));
     }
     let dims = dims_of(h).map(|n| n as usize);
     let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
@@ -253,8 +273,8 @@ fn of_mesh(
     let inside = coverage::inside(&shape.body, &grid, options.padding, options.memory_limit, run)?;
     if !inside.contains(&1) {
         return Err(Error::Empty(format!(
-            "no cell of size {:e} is more than half covered: the shape is too thin for them",
-            h * scale
+            "the shape is too thin for its grid, no cell is more than half covered: {}",
+            short_of(thickness / ACROSS_THICKNESS)
         )));
     }
     Ok((grid, inside))
