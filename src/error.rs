@@ -128,6 +128,16 @@ pub fn filled<T: Clone>(what: &str, len: usize, value: T) -> Result<Vec<T>> {
     Ok(v)
 }
 
+/// Collects `items`, without aborting the process when memory is short.
+pub fn collected<T>(what: &str, items: impl IntoIterator<Item = T>) -> Result<Vec<T>> {
+    let items = items.into_iter();
+    let mut v = reserve(what, items.size_hint().0)?;
+    for item in items {
+        push(what, &mut v, item)?;
+    }
+    Ok(v)
+}
+
 /// Pushes `value`, without aborting the process when memory is short. For arrays
 /// that grow with the input where their length is not known before.
 pub fn push<T>(what: &str, v: &mut Vec<T>, value: T) -> Result<()> {
@@ -142,4 +152,27 @@ pub fn push<T>(what: &str, v: &mut Vec<T>, value: T) -> Result<()> {
     }
     v.push(value);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_fit_is_an_error() {
+        let n = usize::MAX;
+        for e in [
+            reserve::<u64>("numbers", n).err(),
+            filled("numbers", n, 0u64).err(),
+            collected("numbers", 0..n).err(),
+        ] {
+            let text = format!("no memory for numbers: {n} elements of 8 bytes");
+            assert_eq!(e, Some(Error::OutOfMemory(text)));
+        }
+        assert_eq!(collected("numbers", (0..9).filter(|n| n % 2 == 0)), Ok(vec![0, 2, 4, 6, 8]));
+        assert_eq!(fits(format_args!("a tree"), 7, 7), Ok(()));
+        let e = fits(format_args!("a tree"), 8, 7).unwrap_err();
+        let text = "a tree may take 8 bytes, more than the 7 that are left of the limit";
+        assert_eq!(e, Error::MemoryLimit(text.into()));
+    }
 }

@@ -4,13 +4,13 @@
 //! uncovered are reached.
 
 use super::lattice::Lattice;
-use super::maxima::{maxima, thin};
+use super::maxima::{WHAT, maxima, thin};
 use super::subvoxel::along_axis;
 use super::target::{Target, value};
 use super::transform;
-use crate::error::{Result, filled};
+use crate::error::{Error, Result, collected, filled, push};
 use crate::run::Run;
-use std::collections::BTreeSet;
+use std::collections::HashSet;
 
 /// A place for a sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,7 +29,7 @@ pub(super) struct Fields {
     field: Vec<f32>,
     rest: Vec<u64>,
     /// Blocks of cells of which one has been handed out.
-    seen: BTreeSet<[u32; 4]>,
+    seen: HashSet<[u32; 4]>,
 }
 
 impl Fields {
@@ -37,7 +37,7 @@ impl Fields {
         Ok(Fields {
             field: filled("the transform of the clump", target.distance.len(), 0f32)?,
             rest: filled("the uncovered cells", target.bits.len(), 0u64)?,
-            seen: BTreeSet::new(),
+            seen: HashSet::new(),
         })
     }
 
@@ -51,15 +51,14 @@ impl Fields {
     }
 
     /// The maxima of E.
-    pub fn of_target(&mut self, target: &Target, run: &Run) -> Vec<Place> {
-        let found = peaks(target, &target.distance, run);
+    pub fn of_target(&mut self, target: &Target, run: &Run) -> Result<Vec<Place>> {
         let mut places = Vec::new();
-        for cell in found {
-            if self.fresh(target, &cell) {
-                places.push(between(target, &target.distance, &cell, true));
+        for (_, cell) in peaks(target, &target.distance, run)? {
+            if self.fresh(target, &cell)? {
+                push(WHAT, &mut places, between(target, &target.distance, &cell, true))?;
             }
         }
-        places
+        Ok(places)
     }
 
     /// The places that the clump which covers `covered` leaves: the maxima of E* = 2E − Ẽ
@@ -71,9 +70,9 @@ impl Fields {
         covered: &[u64],
         part: f32,
         run: &Run,
-    ) -> Vec<Place> {
-        let stops = self.of_rest(target, covered, part, run);
-        transform::distance(&target.lattice, covered, near(target), &mut self.field, run.pool());
+    ) -> Result<Vec<Place>> {
+        let stops = self.of_rest(target, covered, part, run)?;
+        transform::distance(&target.lattice, covered, near(target), &mut self.field, run.pool())?;
         run.count(|c| c.transforms += 1);
         let slab = target.lattice.dims[0] * target.lattice.dims[1];
         run.pool().chunks_mut(&mut self.field, slab, |k, slab| {
@@ -83,80 +82,98 @@ impl Fields {
             }
         });
         let mut places = Vec::new();
-        for cell in peaks(target, &self.field, run) {
-            if target.at(cell.map(i64::from)) > 0.0 && self.fresh(target, &cell) {
-                places.push(between(target, &self.field, &cell, false));
+        for (_, cell) in peaks(target, &self.field, run)? {
+            if target.at(cell.map(i64::from)) > 0.0 && self.fresh(target, &cell)? {
+                push(WHAT, &mut places, between(target, &self.field, &cell, false))?;
             }
         }
         for cell in stops {
-            if self.fresh(target, &cell) {
+            if self.fresh(target, &cell)? {
                 let deep = f64::from(target.at(cell.map(i64::from)));
                 let deficit = f64::from(value(&self.field, &target.lattice, cell.map(i64::from)));
-                places.push(Place {
+                let place = Place {
                     center: center(&target.lattice, &cell),
                     deep,
                     covered: (2.0 * deep - deficit).max(0.0),
                     peak: false,
-                });
+                };
+                push(WHAT, &mut places, place)?;
             }
         }
-        places
+        Ok(places)
     }
 
     /// Cells from which uncovered ones are reached: from each local maximum of the distance
     /// transform of the uncovered solid cells uphill on E, as far as a ball there
     /// still holds the start; stops on the way count as well.
-    fn of_rest(&mut self, target: &Target, covered: &[u64], part: f32, run: &Run) -> Vec<[u32; 3]> {
+    fn of_rest(
+        &mut self,
+        target: &Target,
+        covered: &[u64],
+        part: f32,
+        run: &Run,
+    ) -> Result<Vec<[u32; 3]>> {
         for ((rest, solid), covered) in self.rest.iter_mut().zip(&target.bits).zip(covered) {
             *rest = solid & !covered;
         }
-        transform::distance(&target.lattice, &self.rest, near(target), &mut self.field, run.pool());
+        let cells = near(target);
+        transform::distance(&target.lattice, &self.rest, cells, &mut self.field, run.pool())?;
         run.count(|c| c.transforms += 1);
-        let mut found = peaks(target, &self.field, run);
-        let depth = |c: &[u32; 3]| value(&self.field, &target.lattice, c.map(i64::from));
+        let mut found = peaks(target, &self.field, run)?;
         // The deepest comes first.
-        let least = found.first().map_or(0.0, depth) * part;
-        found.retain(|c| depth(c) >= least);
-        let paths = run.pool().map(found.len(), |n| uphill(target, found[n]));
-        let mut cells = Vec::new();
-        for path in paths {
-            let last = path.len() - 1;
-            let mut stops = [0, last.div_ceil(3), (2 * last).div_ceil(3), last].to_vec();
-            stops.dedup();
-            let stops = stops.into_iter().filter_map(|s| path.get(s));
-            cells.extend(stops.filter(|c| target.mirrors.stands(c)));
-        }
-        cells
+        let least = found.first().map_or(0.0, |deepest| deepest.0) * part;
+        found.retain(|(depth, _)| *depth >= least);
+        let stops = |n: usize| {
+            let mut cells = Vec::new();
+            for (_, start) in found.iter().skip(n * CHUNK).take(CHUNK) {
+                let path = uphill(target, *start)?;
+                let last = path.len() - 1;
+                let mut stops = [0, last.div_ceil(3), (2 * last).div_ceil(3), last].to_vec();
+                stops.dedup();
+                for cell in stops.into_iter().filter_map(|s| path.get(s)) {
+                    if target.mirrors.stands(cell) {
+                        push(WHAT, &mut cells, *cell)?;
+                    }
+                }
+            }
+            Ok(cells)
+        };
+        let cells = run.pool().map(found.len().div_ceil(CHUNK), stops);
+        let cells = cells.into_iter().collect::<Result<Vec<_>>>()?;
+        collected(WHAT, cells.into_iter().flatten())
     }
 
     /// Marks the block of the cell; whether it was new. Where E is great, places that lie
     /// a small part of E apart are as good as one.
-    fn fresh(&mut self, target: &Target, cell: &[u32; 3]) -> bool {
+    fn fresh(&mut self, target: &Target, cell: &[u32; 3]) -> Result<bool> {
         let across = (f64::from(target.at(cell.map(i64::from))) / FINE).max(1.0) as u32;
         let level = across.ilog2();
         let [i, j, k] = cell.map(|n| n >> level);
-        self.seen.insert([level, i, j, k])
+        self.seen.try_reserve(1).map_err(|_| {
+            Error::OutOfMemory(format!("no memory for more than {} blocks seen", self.seen.len()))
+        })?;
+        Ok(self.seen.insert([level, i, j, k]))
     }
 }
+
+/// Ways up that are looked for together.
+const CHUNK: usize = 16;
 
 /// Places nearer to each other than E over this (or half of that) count as one.
 const FINE: f64 = 8.0;
 
-/// The maxima of a field that stand for their mirror images, without the crowd of large plateaus.
-fn peaks(target: &Target, field: &[f32], run: &Run) -> Vec<[u32; 3]> {
-    let mut found =
-        maxima(&target.lattice, field, target.mirrors.part_dims(target.lattice.dims), run.pool());
+/// The maxima of a field that stand for their mirror images, without the crowd of large plateaus:
+/// their values and cells, the greatest first, equals in the order of the array.
+fn peaks(target: &Target, field: &[f32], run: &Run) -> Result<Vec<(f32, [u32; 3])>> {
+    let part = target.mirrors.part_dims(target.lattice.dims);
+    let found = maxima(&target.lattice, field, part, run.pool())?;
     run.count(|c| c.maxima += found.len() as u64);
-    let kept = thin(
-        std::mem::take(&mut found),
-        |c| value(field, &target.lattice, c.map(i64::from)),
-        f64::from,
-    );
-    let mut standing: Vec<(f32, [u32; 3])> =
-        kept.into_iter().map(|c| (value(field, &target.lattice, c.map(i64::from)), c)).collect();
-    // The greatest of a block comes first.
-    standing.sort_by(|a, b| b.0.total_cmp(&a.0));
-    standing.into_iter().map(|(_, c)| c).collect()
+    let value = |c: &[u32; 3]| value(field, &target.lattice, c.map(i64::from));
+    let kept = thin(found, value, f64::from)?;
+    let mut standing = collected(WHAT, kept.iter().map(|c| (value(c), *c)))?;
+    let place = |[i, j, k]: [u32; 3]| [k, j, i];
+    standing.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(place(a.1).cmp(&place(b.1))));
+    Ok(standing)
 }
 
 /// The cells that the maxima on the low side of the mirror planes depend on.
@@ -195,7 +212,7 @@ fn between(target: &Target, field: &[f32], cell: &[u32; 3], peak: bool) -> Place
 }
 
 /// The cells on the way up on E from `start`, while the ball of radius E about the cell holds the start.
-fn uphill(target: &Target, start: [u32; 3]) -> Vec<[u32; 3]> {
+fn uphill(target: &Target, start: [u32; 3]) -> Result<Vec<[u32; 3]>> {
     let from = center(&target.lattice, &start);
     let mut path = vec![start];
     let mut here = start;
@@ -219,9 +236,9 @@ fn uphill(target: &Target, start: [u32; 3]) -> Vec<[u32; 3]> {
             }
         }
         if best.1 == here {
-            return path;
+            return Ok(path);
         }
         here = best.1;
-        path.push(here);
+        push("a way up", &mut path, here)?;
     }
 }

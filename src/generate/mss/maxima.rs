@@ -1,7 +1,11 @@
 //! Local maxima of a field in the 3×3×3 neighbourhood (Buchele et al. 2026, section 3.3).
 
 use super::lattice::Lattice;
+use crate::error::{Result, collected, filled, push};
 use crate::run::Pool;
+
+/// What is reserved.
+pub(super) const WHAT: &str = "the maxima of a field";
 
 /// The cells with a value above zero whose neighbourhood holds no greater value,
 /// in the order of the array. Cells on the border of the array are none. Cells of
@@ -12,17 +16,17 @@ pub(super) fn maxima(
     field: &[f32],
     most: [usize; 3],
     pool: &Pool,
-) -> Vec<[u32; 3]> {
+) -> Result<Vec<[u32; 3]>> {
     let [nx, ny, nz] = lattice.dims;
     let [mx, my, mz] = std::array::from_fn(|a| most[a].min(lattice.dims[a].saturating_sub(1)));
     if nx < 3 || ny < 3 || nz < 3 {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     let row = |j: usize, k: usize| {
         let start = nx * (j + ny * k);
         field.get(start..start + nx).unwrap_or(&[])
     };
-    let slabs = pool.map(mz.saturating_sub(1), |k| {
+    let slab = |k: usize| {
         let k = k + 1;
         let mut found = Vec::new();
         for j in 1..my {
@@ -49,13 +53,14 @@ pub(super) fn maxima(
                     && around.iter().all(|r| r[i] <= v)
                     && around.iter().all(|r| r[i - 1] <= v && r[i + 1] <= v)
                 {
-                    found.push([i as u32, j as u32, k as u32]);
+                    push(WHAT, &mut found, [i as u32, j as u32, k as u32])?;
                 }
             }
         }
-        found
-    });
-    slabs.concat()
+        Ok(found)
+    };
+    let slabs = pool.map(mz.saturating_sub(1), slab).into_iter().collect::<Result<Vec<_>>>()?;
+    collected(WHAT, slabs.into_iter().flatten())
 }
 
 /// More cells than this with one value are thinned.
@@ -65,17 +70,17 @@ const PLATEAU: usize = 400;
 /// many, those on a lattice about the centre of their box, with a distance of a sixth of
 /// `reach(value)` cells. The lattice is the same from both ends, so mirror images stay.
 pub(super) fn thin(
-    cells: Vec<[u32; 3]>,
+    mut cells: Vec<[u32; 3]>,
     value: impl Fn(&[u32; 3]) -> f32,
     reach: impl Fn(f32) -> f64,
-) -> Vec<[u32; 3]> {
+) -> Result<Vec<[u32; 3]>> {
     if cells.len() <= PLATEAU {
-        return cells;
+        return Ok(cells);
     }
     let mut order: Vec<(f32, usize)> =
-        cells.iter().enumerate().map(|(n, c)| (value(c), n)).collect();
+        collected(WHAT, cells.iter().enumerate().map(|(n, c)| (value(c), n)))?;
     order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut keep = vec![false; cells.len()];
+    let mut keep = filled(WHAT, cells.len(), false)?;
     for group in order.chunk_by(|a, b| a.0 == b.0) {
         let members = || group.iter().filter_map(|(_, n)| cells.get(*n).map(|c| (*n, c)));
         let stride = group.first().map_or(1.0, |(v, _)| reach(*v) / 6.0).floor().max(1.0) as u32;
@@ -100,7 +105,9 @@ pub(super) fn thin(
             });
         }
     }
-    cells.into_iter().zip(keep).filter(|(_, k)| *k).map(|(c, _)| c).collect()
+    let mut keep = keep.into_iter();
+    cells.retain(|_| keep.next().unwrap_or(false));
+    Ok(cells)
 }
 
 #[cfg(test)]
@@ -133,14 +140,14 @@ mod tests {
                     }
                 }
             }
-            prop_assert_eq!(maxima(&l, &field, dims, &Pool::serial()), slow);
+            prop_assert_eq!(maxima(&l, &field, dims, &Pool::serial()).unwrap(), slow);
         }
     }
 
     #[test]
     fn a_thinned_plateau_keeps_its_centre_ends_and_mirror_images() {
         let cells: Vec<[u32; 3]> = (0..60 * 41).map(|n| [3 + n % 60, 7 + n / 60, 5]).collect();
-        let kept = thin(cells.clone(), |_| 24.0, f64::from);
+        let kept = thin(cells.clone(), |_| 24.0, f64::from).unwrap();
         assert!(kept.len() < cells.len() / 5);
         for c in &kept {
             assert!(kept.contains(&[65 - c[0], c[1], c[2]]));

@@ -23,7 +23,7 @@ mod transform;
 
 use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
-use crate::error::{Error, Result, filled};
+use crate::error::{Error, Result, collected, filled, push};
 use crate::run::Run;
 use crate::solid::Solid;
 use candidates::Fields;
@@ -57,7 +57,7 @@ pub(super) fn mss(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result
     let made = grow(&target, rules, options.spheres, options.mismatch, run);
     run.count(|c| c.exact_distances += target.asked());
     let made = made?;
-    let spheres = made.balls.iter().map(|b| target.sphere(b)).collect::<Vec<_>>();
+    let spheres = collected("the spheres", made.balls.iter().map(|b| target.sphere(b)))?;
     let note = note(&made, options, spheres.len());
     Ok(Clump { spheres, stopped: made.stopped, note, quality: None, counters: run.counters() })
 }
@@ -82,8 +82,8 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
     let mut pool = Pool::new(rules);
     let mut balls: Vec<Ball> = Vec::new();
     let mut orbits: Vec<Vec<Ball>> = Vec::new();
-    let places = fields.of_target(target, run);
-    pool.add(target, places, &Residue::count(&target.lattice, &target.bits, &covered)?);
+    let places = fields.of_target(target, run)?;
+    pool.add(target, places, &Residue::count(&target.lattice, &target.bits, &covered)?)?;
     let mut part = DEEP;
     let mut led = false;
     let stopped = 'search: loop {
@@ -100,7 +100,7 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
                 break 'search Stopped::Deadline;
             }
             let Some(choice) =
-                pool.best(target, &covered, &counts, &balls, limit - balls.len(), run)
+                pool.best(target, &covered, &counts, &balls, limit - balls.len(), run)?
             else {
                 if stop(run, &balls) {
                     continue; // The checks above say why.
@@ -123,7 +123,7 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
                 }
                 target.lattice.cover(&ball, &target.bits, &mut covered);
                 counts = next;
-                balls.push(ball);
+                push("the spheres", &mut balls, ball)?;
                 added.push(ball);
                 if aim > 0.0 && counts.mismatch() <= aim {
                     reached = Some(Stopped::Mismatch);
@@ -136,13 +136,13 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
             }
             let settles = added.len() == whole && balls.len() <= SETTLING;
             if !added.is_empty() {
-                orbits.push(added);
+                push("the spheres", &mut orbits, added)?;
             }
             if settles && orbits.len() > 1 && reached != Some(Stopped::Mismatch) {
                 let cells = [covered.as_mut_slice(), fields.spare()];
                 if settle(&pool, target, &mut orbits, cells, &mut counts, run) {
                     balls = orbits.concat();
-                    pool.renew(target, &Residue::count(&target.lattice, &target.bits, &covered)?);
+                    pool.renew(target, &Residue::count(&target.lattice, &target.bits, &covered)?)?;
                 }
                 if aim > 0.0 && counts.mismatch() <= aim {
                     reached = Some(Stopped::Mismatch);
@@ -162,8 +162,8 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
             part = 0.0;
         }
         led = true;
-        let places = fields.of_clump(target, &covered, part, run);
-        pool.add(target, places, &Residue::count(&target.lattice, &target.bits, &covered)?);
+        let places = fields.of_clump(target, &covered, part, run)?;
+        pool.add(target, places, &Residue::count(&target.lattice, &target.bits, &covered)?)?;
     };
     if balls.is_empty() {
         return Err(match stopped {

@@ -8,6 +8,7 @@ use super::counts::Counts;
 use super::lattice::{Ball, distance_squared};
 use super::residue::Residue;
 use super::target::Target;
+use crate::error::{Result, collected, push};
 use crate::run::Run;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -92,6 +93,9 @@ const TOGETHER: usize = 8;
 /// The caller is asked whether to go on once for so many batches of candidates.
 const ASK: usize = 16;
 
+/// What is reserved.
+const WHAT: &str = "the places of spheres";
+
 /// All places found so far.
 pub(super) struct Pool {
     rules: Rules,
@@ -105,28 +109,28 @@ impl Pool {
     }
 
     /// Takes in places, and lowers the bounds of those before to the uncovered cells around them.
-    pub fn add(&mut self, target: &Target, places: Vec<Place>, residue: &Residue) {
+    pub fn add(&mut self, target: &Target, places: Vec<Place>, residue: &Residue) -> Result<()> {
+        let mut entries = std::mem::take(&mut self.heap).into_vec();
         for place in places {
-            self.heap.push(self.entry(target, &place, place.covered, self.candidates.len()));
-            self.candidates.push(Candidate {
-                place,
-                orbit: Vec::new(),
-                tried: false,
-                small: false,
-            });
+            let entry = self.entry(target, &place, place.covered, self.candidates.len());
+            push(WHAT, &mut entries, entry)?;
+            let candidate = Candidate { place, orbit: Vec::new(), tried: false, small: false };
+            push(WHAT, &mut self.candidates, candidate)?;
         }
-        let entries = std::mem::take(&mut self.heap).into_iter();
-        self.heap = entries.filter_map(|e| self.lowered(e, residue)).collect();
+        entries.retain_mut(|e| self.lowered(*e, residue).map(|lower| *e = lower).is_some());
+        self.heap = entries.into();
+        Ok(())
     }
 
     /// Puts every place back that has ever been found, but those that are too small, with the
     /// bound of its whole ball: spheres have moved, and where they were a place that gained
     /// little, or nothing, may gain again.
-    pub fn renew(&mut self, target: &Target, residue: &Residue) {
+    pub fn renew(&mut self, target: &Target, residue: &Residue) -> Result<()> {
         let places = self.candidates.iter().enumerate().filter(|(_, c)| !c.small);
-        self.heap = places
-            .filter_map(|(n, c)| self.lowered(self.entry(target, &c.place, 0.0, n), residue))
-            .collect();
+        let entries =
+            places.filter_map(|(n, c)| self.lowered(self.entry(target, &c.place, 0.0, n), residue));
+        self.heap = collected(WHAT, entries)?.into();
+        Ok(())
     }
 
     /// An entry with no less than the cells that a sphere at the place has outside of a ball
@@ -180,7 +184,7 @@ impl Pool {
         chosen: &[Ball],
         room: usize,
         run: &Run,
-    ) -> Option<Choice> {
+    ) -> Result<Option<Choice>> {
         let mut best: Option<Entry> = None;
         let mut cut: Option<Entry> = None;
         let mut looked: Vec<Entry> = Vec::new();
@@ -228,7 +232,8 @@ impl Pool {
                             c.orbit = orbit;
                             c.tried = true;
                         }
-                        looked.push(Entry { score: next.score.max(0.0), ..entry });
+                        let again = Entry { score: next.score.max(0.0), ..entry };
+                        push(WHAT, &mut looked, again)?;
                     }
                 }
             }
@@ -241,8 +246,8 @@ impl Pool {
         let best = if interrupted { None } else { best };
         let winner = best.map(|b| b.index);
         self.heap.extend(looked.into_iter().filter(|entry| Some(entry.index) != winner));
-        let entry = best?;
-        let candidate = self.candidates.get(entry.index)?;
+        let Some(entry) = best else { return Ok(None) };
+        let Some(candidate) = self.candidates.get(entry.index) else { return Ok(None) };
         let mut orbit = candidate.orbit.clone();
         let mut score = entry.score;
         if candidate.place.peak {
@@ -254,7 +259,7 @@ impl Pool {
                 (orbit, score) = (other, counts.score(gain));
             }
         }
-        Some(Choice { orbit, score: score * (1.0 + counts.mismatch()), entry })
+        Ok(Some(Choice { orbit, score: score * (1.0 + counts.mismatch()), entry }))
     }
 
     /// The orbit about a point and its new cells a sphere, when the rules allow it.

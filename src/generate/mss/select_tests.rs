@@ -28,15 +28,15 @@ fn places_that_gained_nothing_come_back_when_spheres_move() {
     let empty = vec![0; full.len()];
     let counts = Counts { target: target.cells, ..Counts::default() };
     let mut pool = Pool::new(rules(0.0));
-    let places = Fields::new(&target).unwrap().of_target(&target, &run);
-    pool.add(&target, places, &residue(&empty));
-    let first = pool.best(&target, &empty, &counts, &[], 9, &run).unwrap();
+    let places = Fields::new(&target).unwrap().of_target(&target, &run).unwrap();
+    pool.add(&target, places, &residue(&empty)).unwrap();
+    let first = pool.best(&target, &empty, &counts, &[], 9, &run).unwrap().unwrap();
     pool.put_back(first);
     // While all is covered, nothing gains, and the places are dropped.
-    assert!(pool.best(&target, &full, &counts, &[], 9, &run).is_none());
-    assert!(pool.best(&target, &empty, &counts, &[], 9, &run).is_none());
-    pool.renew(&target, &residue(&empty));
-    let again = pool.best(&target, &empty, &counts, &[], 9, &run).unwrap();
+    assert!(pool.best(&target, &full, &counts, &[], 9, &run).unwrap().is_none());
+    assert!(pool.best(&target, &empty, &counts, &[], 9, &run).unwrap().is_none());
+    pool.renew(&target, &residue(&empty)).unwrap();
+    let again = pool.best(&target, &empty, &counts, &[], 9, &run).unwrap().unwrap();
     assert!((again.orbit[0].radius - 8.0).abs() < 0.3);
 }
 
@@ -48,9 +48,9 @@ fn a_place_that_is_too_small_counts_while_it_would_help() {
     let residue = Residue::count(&target.lattice, &target.bits, &empty).unwrap();
     let counts = Counts { target: target.cells, ..Counts::default() };
     let mut pool = Pool::new(rules(9.0));
-    let places = Fields::new(&target).unwrap().of_target(&target, &run);
-    pool.add(&target, places, &residue);
-    assert!(pool.best(&target, &empty, &counts, &[], 9, &run).is_none());
+    let places = Fields::new(&target).unwrap().of_target(&target, &run).unwrap();
+    pool.add(&target, places, &residue).unwrap();
+    assert!(pool.best(&target, &empty, &counts, &[], 9, &run).unwrap().is_none());
     assert!(pool.small_one_helps(&target, &empty, &counts, &[]));
     assert!(!pool.small_one_helps(&target, &target.bits, &counts, &[]));
 }

@@ -69,7 +69,7 @@ impl<'a> Target<'a> {
             return Err(Error::Empty("no cell of the grid is solid".into()));
         }
         let mut distance = filled("the distance transform", mask.len(), 0f32)?;
-        transform::distance(&lattice, &bits, dims, &mut distance, run.pool());
+        transform::distance(&lattice, &bits, dims, &mut distance, run.pool())?;
         run.count(|c| c.transforms += 1);
         let mirrors = Mirrors::find(&lattice, &bits);
         Ok(Target { lattice, bits, cells, distance, mirrors, rims: None, truth: None })
@@ -79,7 +79,7 @@ impl<'a> Target<'a> {
     fn keep_off_slots(&mut self, mesh: &Mesh, grid: &Grid, run: &Run) -> Result<()> {
         let l = &self.lattice;
         if let Some(bits) = without_slots(mesh, grid, l, &self.bits, &self.distance)? {
-            transform::distance(l, &bits, l.dims, &mut self.distance, run.pool());
+            transform::distance(l, &bits, l.dims, &mut self.distance, run.pool())?;
             run.count(|c| c.transforms += 1);
         }
         Ok(())

@@ -4,6 +4,7 @@
 //! beyond the two empty cells at its ends, since these are nearer.
 
 use super::lattice::Lattice;
+use crate::error::{Result, reserve};
 use crate::run::Pool;
 
 /// Columns that are transformed together, so that whole cache lines are read; a part of a word.
@@ -18,11 +19,11 @@ pub(super) fn distance(
     most: [usize; 3],
     out: &mut [f32],
     pool: &Pool,
-) {
+) -> Result<()> {
     let [nx, ny, nz] = lattice.dims;
     let slab = nx * ny;
     if slab == 0 || nz == 0 {
-        return;
+        return Ok(());
     }
     let word = |row: usize, w: usize| bits.get(lattice.words * row + w).copied().unwrap_or(0);
     pool.chunks_mut(out, slab, |k, slab| {
@@ -36,7 +37,8 @@ pub(super) fn distance(
         work.transform(&mut rows, most[0], false, |j, w| word(j + ny * k, w));
     });
     // The rows with the same j, across all slabs, belong together along z.
-    let mut planes: Vec<Vec<&mut [f32]>> = (0..ny).map(|_| Vec::with_capacity(nz)).collect();
+    let planes = (0..ny).map(|_| reserve("the rows of the transform", nz));
+    let mut planes = planes.collect::<Result<Vec<Vec<&mut [f32]>>>>()?;
     for (n, row) in out.chunks_exact_mut(nx).enumerate() {
         if let Some(plane) = planes.get_mut(n % ny) {
             plane.push(row);
@@ -49,6 +51,7 @@ pub(super) fn distance(
             work.transform(rows, most[0], true, |k, w| word(j + ny * k, w));
         }
     });
+    Ok(())
 }
 
 /// Squared distance to the nearest empty cell of the row.
@@ -258,10 +261,10 @@ mod tests {
         let l = Lattice::new(dims, step);
         let bits = l.pack(mask).unwrap();
         let mut out = vec![7.0; mask.len()];
-        distance(&l, &bits, dims, &mut out, &Pool::serial());
+        distance(&l, &bits, dims, &mut out, &Pool::serial()).unwrap();
         let part = [dims[0].div_ceil(2), dims[1].div_ceil(3), dims[2]];
         let mut some = vec![7.0; mask.len()];
-        distance(&l, &bits, part, &mut some, &Pool::serial());
+        distance(&l, &bits, part, &mut some, &Pool::serial()).unwrap();
         for (n, (a, b)) in some.iter().zip(&out).enumerate() {
             let (i, j) = (n % dims[0], n / dims[0] % dims[1]);
             assert!(i >= part[0] || j >= part[1] || a == b);
