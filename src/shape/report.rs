@@ -57,6 +57,9 @@ pub struct Report {
     pub length_unit: f64,
     /// Threshold used on a grey volume (Otsu's, or the caller's); 0 when none was.
     pub threshold: f64,
+    /// How many different values a volume holds that was cut by Otsu's threshold unasked although
+    /// its values may be labels: whole numbers, at most 64 different ones. 0 for all others.
+    pub label_like: u64,
     /// One sentence for each thing a user should know; empty when all is well.
     pub notes: Vec<String>,
 }

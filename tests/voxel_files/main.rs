@@ -162,6 +162,29 @@ fn the_meaning_of_values() {
 }
 
 #[test]
+fn what_may_be_labels_is_said() {
+    let told = |descr: &str, values: &[u8], meaning| {
+        let cells = values.len() / if descr == "<f4" { 4 } else { 1 };
+        let file = npy(descr, false, [1, 1, cells], values);
+        let r = read(&file, "", &FileOptions { meaning, ..options() }).unwrap().report;
+        assert_eq!(r.label_like > 0, r.notes.iter().any(|n| n.contains("labels")), "{:?}", r.notes);
+        r.label_like
+    };
+    let floats = |v: [f32; 4]| v.iter().flat_map(|x| x.to_le_bytes()).collect::<Vec<u8>>();
+    let scan: Vec<u8> = (0..=64).collect();
+    assert_eq!(told("|u1", &[0, 5, 5, 9, 0, 5], Meaning::Auto), 3);
+    assert_eq!(told("|u1", &scan[..64], Meaning::Auto), 64);
+    assert_eq!(told("<f4", &floats([0.0, 2.0, 2.0, 7.0]), Meaning::Auto), 3);
+    // A scan; values that are no labels; masks; and what the caller has said.
+    assert_eq!(told("|u1", &scan, Meaning::Auto), 0);
+    assert_eq!(told("<f4", &floats([0.0, 2.5, 2.0, 7.0]), Meaning::Auto), 0);
+    assert_eq!(told("<f4", &floats([0.0, 2.0, -2.0, 7.0]), Meaning::Auto), 0);
+    assert_eq!(told("|u1", &[0, 5, 5, 0], Meaning::Auto), 0);
+    assert_eq!(told("|u1", &[0, 5, 9, 0], Meaning::Grey(Threshold::Otsu)), 0);
+    assert_eq!(told("|u1", &[0, 5, 9, 0], Meaning::Label(5)), 0);
+}
+
+#[test]
 fn the_file_its_values_and_the_cells_count_together() {
     let raw = ([10, 10, 10], RawType::U16, 0);
     let path = std::env::temp_dir().join(format!("morula-held-{}.raw", std::process::id()));

@@ -49,6 +49,10 @@ pub(super) fn shape(voxels: RawVoxels, options: &FileOptions, run: &Run) -> Resu
         )));
     }
     let bytes = bytes + more;
+    let label_like = match options.meaning {
+        Meaning::Auto if !is_mask(&values) => label_like(&values),
+        _ => 0,
+    };
     let make = |mask: &[u8]| Shape::from_read_mask(mask, &layout, import, bytes, run);
     let mut shape = match options.meaning {
         Meaning::Label(label) => {
@@ -80,6 +84,13 @@ pub(super) fn shape(voxels: RawVoxels, options: &FileOptions, run: &Run) -> Resu
         }
     }?;
     shape.report.notes.splice(0..0, notes);
+    if label_like > 0 {
+        shape.report.label_like = label_like;
+        shape.report.notes.push(format!(
+            "the volume holds {label_like} different whole values and may be one of labels: if it is, \
+             say which label is the particle"
+        ));
+    }
     Ok(shape)
 }
 
@@ -106,6 +117,40 @@ fn is_mask(values: &RawValues) -> bool {
         RawValues::U16(v) => of(v),
         RawValues::U32(v) => of(v),
         RawValues::F32(v) => v.iter().all(|x| x.is_finite()) && of(v),
+    }
+}
+
+/// Most different values of a volume that is taken for one of labels: few beside the 256 or
+/// more of a scan.
+const FEW: usize = 64;
+
+/// How many different values there are, if they may be labels: whole numbers, not negative, and
+/// few. Else 0.
+fn label_like(values: &RawValues) -> u64 {
+    fn of<T: Copy + PartialOrd>(values: &[T], whole: impl Fn(T) -> bool) -> u64 {
+        let mut seen: Vec<T> = Vec::new();
+        let mut last = None;
+        for &v in values {
+            // Labels come in runs.
+            if last == Some(v) {
+                continue;
+            }
+            last = Some(v);
+            let at = seen.partition_point(|&x| x < v);
+            if seen.get(at) != Some(&v) {
+                if seen.len() == FEW || !whole(v) {
+                    return 0;
+                }
+                seen.insert(at, v);
+            }
+        }
+        seen.len() as u64
+    }
+    match values {
+        RawValues::U8(v) => of(v, |_| true),
+        RawValues::U16(v) => of(v, |_| true),
+        RawValues::U32(v) => of(v, |_| true),
+        RawValues::F32(v) => of(v, |x| (0.0..4_294_967_296.0).contains(&x) && x.fract() == 0.0),
     }
 }
 
