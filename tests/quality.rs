@@ -9,7 +9,7 @@ use morula::math::{Sphere, Vec3};
 use morula::measure::{Quality, QualityOptions, quality};
 use morula::shape::{ImportOptions, Primitive};
 use morula::solid::SolidOptions;
-use morula::{Run, Shape, Solid};
+use morula::{Error, Run, Shape, Solid};
 use std::f64::consts::PI;
 
 fn solid(primitive: Primitive, segments: usize) -> Solid {
@@ -214,6 +214,12 @@ fn bad_arguments_are_named() {
     ] {
         let message = fails(&[one[0], bad], &options);
         assert!(message.contains(word), "{message}");
+    }
+    // So large or so far that the columns over both pass by the target.
+    for bad in [sphere([0.0; 3], 1e9), sphere([1e6, 0.0, 0.0], 0.5)] {
+        let error = quality(&cube, &[one[0], bad], &options, &run).unwrap_err();
+        let named = error.to_string().contains("sphere 1 has radius");
+        assert!(named && matches!(error, Error::InvalidArgument(_)), "{error}");
     }
     assert!(fails(&one, &QualityOptions { columns: 0, ..options.clone() }).contains("columns"));
     let negative = QualityOptions { plane_tolerances: vec![0.0, -1.0], ..options };

@@ -118,7 +118,34 @@ pub(super) fn overlap(
     });
     // On a lattice of whole cells the target is a set of prisms, each with its own cross-section.
     let prisms = matches!(body, Body::Voxels(_)) && lattice.inverse[0][1] == 0.0;
-    compare(&target, &union, 0.5 * (lo + hi)[lattice.axis], prisms, run)
+    match compare(&target, &union, 0.5 * (lo + hi)[lattice.axis], prisms, run) {
+        Err(Error::ZeroVolume(_)) => Err(missed(solid, spheres, (lo, hi))),
+        done => done,
+    }
+}
+
+/// Why no column meets the target: a sphere that is far larger or farther away than it, else
+/// too few columns.
+fn missed(solid: &Solid, spheres: &[Sphere], (lo, hi): (Vec3, Vec3)) -> Error {
+    let middle = 0.5 * (lo + hi);
+    let reach = |s: &Sphere| (s.center - middle).amax() + s.radius;
+    let farthest = spheres.iter().enumerate().max_by(|a, b| reach(a.1).total_cmp(&reach(b.1)));
+    match farthest {
+        // At twice the target's size the columns still stand half as dense.
+        Some((i, s)) if reach(s) > (hi - lo).max() => {
+            let s = solid.frame().sphere_to_input(s);
+            Error::InvalidArgument(format!(
+                "sphere {i} has radius {:.3e} and centre ({:.3e}, {:.3e}, {:.3e}): so far beyond \
+                 the target, of size {:.3e}, that no column meets both",
+                s.radius,
+                s.center.x,
+                s.center.y,
+                s.center.z,
+                (hi - lo).max() * solid.frame().scale
+            ))
+        }
+        _ => Error::ZeroVolume("no column meets the target: ask for more columns".into()),
+    }
 }
 
 /// Compares two bodies on one lattice, band by band. `middle`: where along the columns the
