@@ -154,6 +154,25 @@ pub fn push<T>(what: &str, v: &mut Vec<T>, value: T) -> Result<()> {
     Ok(())
 }
 
+/// A number as a sentence quotes it: with an exponent where it would be a long row of zeros.
+pub fn figure(x: f64) -> String {
+    if x == 0.0 || !x.is_finite() || (1e-5..1e16).contains(&x.abs()) {
+        format!("{x}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
+/// "1 face", "2 faces".
+pub fn count(n: u64, noun: &str) -> String {
+    match (n, noun) {
+        (1, _) => format!("1 {noun}"),
+        (_, "vertex") => format!("{n} vertices"),
+        (_, "body") => format!("{n} bodies"),
+        _ => format!("{n} {noun}s"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -174,5 +193,18 @@ mod tests {
         let e = fits(format_args!("a tree"), 8, 7).unwrap_err();
         let text = "a tree may take 8 bytes, more than the 7 that are left of the limit";
         assert_eq!(e, Error::MemoryLimit(text.into()));
+    }
+
+    #[test]
+    fn numbers_and_counts_read_well() {
+        for (x, text) in [(0.001, "0.001"), (-2.0, "-2"), (0.0, "0"), (1e-200, "1e-200")] {
+            assert_eq!(figure(x), text);
+        }
+        assert_eq!((figure(-2.5e300), figure(f64::NAN)), ("-2.5e300".into(), "NaN".into()));
+        assert_eq!(
+            (count(1, "vertex"), count(0, "vertex")),
+            ("1 vertex".into(), "0 vertices".into())
+        );
+        assert_eq!((count(2, "face"), count(1, "face")), ("2 faces".into(), "1 face".into()));
     }
 }

@@ -4,7 +4,7 @@ pub mod best;
 pub mod mss;
 
 use crate::clump::{Clump, Stopped};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, figure};
 use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
 use crate::solid::Solid;
@@ -87,7 +87,10 @@ fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
         [("mismatch", o.mismatch), ("min_radius", o.min_radius), ("min_distance", o.min_distance)]
     {
         if !(value.is_finite() && value >= 0.0) {
-            return Err(Error::InvalidArgument(format!("{name} is {value}, not a number ≥ 0")));
+            return Err(Error::InvalidArgument(format!(
+                "{name} is {}, not a number ≥ 0",
+                figure(value)
+            )));
         }
     }
     if !o.radius_offset.is_finite() {

@@ -10,7 +10,7 @@ mod surface;
 mod tree;
 mod union;
 
-use crate::error::{Error, Result, reserve};
+use crate::error::{Error, Result, figure, reserve};
 use crate::math::Sphere;
 use crate::run::Run;
 use crate::solid::Solid;
@@ -155,7 +155,8 @@ fn check(solid: &Solid, spheres: &[Sphere], options: &QualityOptions) -> Result<
     for (i, &delta) in options.plane_tolerances.iter().enumerate() {
         if !(delta.is_finite() && delta >= 0.0) {
             return Err(Error::InvalidArgument(format!(
-                "plane tolerance {i} is {delta}, not a number ≥ 0"
+                "plane tolerance {i} is {}, not a number ≥ 0",
+                figure(delta)
             )));
         }
     }
@@ -175,8 +176,8 @@ fn check(solid: &Solid, spheres: &[Sphere], options: &QualityOptions) -> Result<
         if !(u.radius >= 1e-100 && u.radius <= 1e100 && u.center.amax() <= 1e100) {
             return Err(Error::InvalidArgument(format!(
                 "sphere {i} has radius {} and lies {} from the target: out of proportion",
-                s.radius,
-                u.center.amax() * solid.frame().scale
+                figure(s.radius),
+                figure(u.center.amax() * solid.frame().scale)
             )));
         }
         unit.push(u);

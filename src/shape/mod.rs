@@ -15,6 +15,7 @@ pub use primitive::Primitive;
 pub use report::Report;
 pub use voxels::{Layout, Voxels};
 
+use crate::error::figure;
 use crate::math::UnitFrame;
 use std::sync::Arc;
 
@@ -53,6 +54,14 @@ impl Default for ImportOptions {
             bodies: Bodies::Refuse,
             memory_limit: 2 << 30,
         }
+    }
+}
+
+impl ImportOptions {
+    /// What the report says of a length unit.
+    fn unit_note(&self) -> Option<String> {
+        let unit = self.length_unit;
+        (unit != 1.0).then(|| format!("lengths were multiplied by {} on import", figure(unit)))
     }
 }
 

@@ -115,5 +115,5 @@ fn a_t_junction_is_closed_to_the_winding_number() {
     let s = import(&m).unwrap();
     assert!(!s.report.watertight && !mesh(&s).clean);
     assert_eq!((s.report.boundary_edges, s.report.volume), (3, 1.0));
-    assert!(has_note(&s, "3 edges have one face"));
+    assert!(has_note(&s, "edges with one face: 3, with more than two: 0"));
 }

@@ -23,7 +23,7 @@ mod transform;
 
 use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
-use crate::error::{Error, Result, collected, filled, push};
+use crate::error::{Error, Result, collected, count, figure, filled, push};
 use crate::run::Run;
 use crate::solid::Solid;
 use candidates::Fields;
@@ -54,7 +54,7 @@ pub(super) fn mss(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result
         min_distance: options.min_distance,
         confine: options.confine,
     };
-    let made = grow(&target, rules, options.spheres, options.mismatch, run);
+    let made = grow(&target, rules, options, run);
     run.count(|c| c.exact_distances += target.asked());
     let made = made?;
     let spheres = collected("the spheres", made.balls.iter().map(|b| target.sphere(b)))?;
@@ -69,9 +69,10 @@ struct Made {
     mismatch: f64,
 }
 
-/// Adds spheres until a criterion is met. `limit` 0: any number; `aim` 0: any mismatch.
-fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Result<Made> {
-    let limit = if limit == 0 { usize::MAX } else { limit };
+/// Adds spheres until a criterion is met.
+fn grow(target: &Target, rules: Rules, options: &GenerateOptions, run: &Run) -> Result<Made> {
+    let limit = if options.spheres == 0 { usize::MAX } else { options.spheres };
+    let aim = options.mismatch;
     let mut covered = filled("the cells of the clump", target.bits.len(), 0u64)?;
     let mut fields = Fields::new(target)?;
     run.count(|c| {
@@ -171,8 +172,8 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
                 Error::Cancelled("cancelled by the caller before the first sphere".into())
             }
             Stopped::Radius => Error::NoSpheres(format!(
-                "no sphere that fits has a radius of {} cells or more",
-                rules.min_radius
+                "no sphere that fits has a radius of {} or more",
+                figure(options.min_radius)
             )),
             _ => Error::NoSpheres("no sphere in the solid brings the mismatch down".into()),
         });
@@ -183,7 +184,7 @@ fn grow(target: &Target, rules: Rules, limit: usize, aim: f64, run: &Run) -> Res
 /// Why there are fewer spheres than were asked for.
 fn note(made: &Made, options: &GenerateOptions, n: usize) -> String {
     let of = match options.spheres {
-        0 => format!("{n} spheres"),
+        0 => count(n as u64, "sphere"),
         asked if n < asked => format!("{n} of {asked} spheres"),
         _ => return String::new(),
     };
@@ -192,7 +193,8 @@ fn note(made: &Made, options: &GenerateOptions, n: usize) -> String {
         Stopped::Spheres => String::new(),
         Stopped::Mismatch => format!("{of}: the mismatch on the grid is {d:.4}, as low as asked"),
         Stopped::Radius => {
-            format!("{of}: every further sphere that helps is smaller than {}", options.min_radius)
+            let least = figure(options.min_radius);
+            format!("{of}: every further sphere that helps is smaller than {least}")
         }
         Stopped::Deadline => format!("{of}: the deadline passed"),
         Stopped::Cancelled => format!("{of}: cancelled by the caller"),

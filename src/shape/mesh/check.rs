@@ -1,6 +1,6 @@
 //! Checks of what the caller hands in, before any work.
 
-use crate::error::{Error, Result, reserve};
+use crate::error::{Error, Result, count, figure, reserve};
 use crate::math::{UnitFrame, Vec3};
 use crate::shape::ImportOptions;
 
@@ -12,13 +12,15 @@ pub fn options(options: &ImportOptions) -> Result<()> {
     let t = options.weld_tolerance;
     if !(0.0..=1e-3).contains(&t) {
         return Err(Error::InvalidArgument(format!(
-            "weld_tolerance is {t}, outside of 0 to 0.001 of the longest edge"
+            "weld_tolerance is {}, outside of 0 to 0.001 of the longest edge",
+            figure(t)
         )));
     }
     let u = options.length_unit;
     if !(u.is_finite() && SIZES.contains(&u)) {
         return Err(Error::InvalidArgument(format!(
-            "length_unit is {u}, not a length between {:e} and {:e}",
+            "length_unit is {}, not a length between {:e} and {:e}",
+            figure(u),
             SIZES.start(),
             SIZES.end()
         )));
@@ -59,7 +61,10 @@ impl Grain {
 /// of a file.
 pub fn counts(vertices: usize, faces: usize, held: u64, options: &ImportOptions) -> Result<()> {
     if faces == 0 {
-        return Err(Error::Empty(format!("the mesh has {vertices} vertices but no faces")));
+        return Err(Error::Empty(format!(
+            "the mesh has {} but no faces",
+            count(vertices as u64, "vertex")
+        )));
     }
     let most = (u32::MAX / 4) as usize;
     if vertices > most || faces > most {
@@ -107,8 +112,8 @@ pub fn indices(faces: &[[u32; 3]], vertices: usize) -> Result<()> {
     for (i, f) in faces.iter().enumerate() {
         if let Some(v) = f.iter().find(|&&v| v as usize >= vertices) {
             return Err(Error::IndexOutOfRange(format!(
-                "face {i} names vertex {v}, but there are only {vertices} vertices (0 to {})",
-                vertices as i64 - 1
+                "face {i} names vertex {v}, but the mesh has only {} (counted from 0)",
+                count(vertices as u64, "vertex")
             )));
         }
     }
@@ -130,6 +135,8 @@ pub fn frame_of(points: &[Vec3], faces: &[[u32; 3]]) -> Result<UnitFrame> {
             SIZES.end()
         )));
     }
-    UnitFrame::of_box(lo, hi)
-        .ok_or_else(|| Error::ZeroVolume(format!("all {} faces lie in one point", faces.len())))
+    UnitFrame::of_box(lo, hi).ok_or_else(|| {
+        let faces = count(faces.len() as u64, "face");
+        Error::ZeroVolume(format!("the mesh of {faces} is a single point: no volume"))
+    })
 }

@@ -14,7 +14,7 @@ mod tree;
 mod weld;
 
 use super::{Bodies, Body, ImportOptions, Report, Shape};
-use crate::error::{Error, Result, filled, push, reserve};
+use crate::error::{Error, Result, count, filled, push, reserve};
 use crate::math::{UnitFrame, Vec3};
 use crate::run::{Run, Stage};
 use check::Grain;
@@ -112,11 +112,9 @@ fn import(
         input_vertices: points.len() as u64,
         input_faces: faces.len() as u64,
         length_unit: options.length_unit,
+        notes: options.unit_note().into_iter().collect(),
         ..Report::default()
     };
-    if options.length_unit != 1.0 {
-        report.notes.push(format!("lengths were multiplied by {} on import", options.length_unit));
-    }
 
     // A frame for the repair; the body's own follows when it is known what stays.
     let frame = check::frame_of(&points, faces)?;
@@ -130,8 +128,8 @@ fn import(
     let mut kept = kept.faces;
     if kept.is_empty() {
         return Err(Error::ZeroVolume(format!(
-            "none of the {} faces encloses anything: {} have no area, {} cancel each other",
-            faces.len(),
+            "the mesh of {} encloses nothing: faces without area: {}, that cancel each other: {}",
+            count(faces.len() as u64, "face"),
             report.degenerate_faces,
             report.duplicate_faces
         )));
@@ -189,14 +187,15 @@ fn note_repairs(kept: &repair::Kept, options: &ImportOptions, report: &mut Repor
     note(
         kept.moved,
         format!(
-            "{} vertices lay within {:e} of the longest edge of others and were welded to them",
-            kept.moved, options.weld_tolerance
+            "welded {} that lay within {:e} of the longest edge to others",
+            count(kept.moved, "vertex"),
+            options.weld_tolerance
         ),
     );
-    note(kept.degenerate, format!("{} faces without area were dropped", kept.degenerate));
+    note(kept.degenerate, format!("dropped {} without area", count(kept.degenerate, "face")));
     let twice = kept.duplicate - kept.walls.min(kept.duplicate);
-    note(twice, format!("{twice} faces that were there more than once were dropped"));
-    note(kept.walls, format!("{} opposed faces that form inner walls were taken out", kept.walls));
+    note(twice, format!("dropped {} as copies of others", count(twice, "face")));
+    note(kept.walls, format!("took out {} opposed faces that form inner walls", kept.walls));
 }
 
 fn note_turns(turn: &[bool], one_sided: bool, report: &mut Report) {
@@ -206,7 +205,10 @@ fn note_turns(turn: &[bool], one_sided: bool, report: &mut Report) {
         report.notes.push("the whole surface was inside out and was turned".into());
     } else if turned > 0 {
         report.faces_turned = turned as u64;
-        report.notes.push(format!("{turned} faces ran against their neighbours and were turned"));
+        report.notes.push(format!(
+            "turned {} to run as the neighbours do",
+            count(report.faces_turned, "face")
+        ));
     }
     if one_sided {
         report.notes.push(
@@ -232,14 +234,14 @@ fn refuse_without_inside(
     if loose <= solid && solid > 0.0 {
         return Ok(());
     }
-    let n = faces.len();
+    let n = count(faces.len() as u64, "face");
     if inside::is_flat(faces, points, grain) {
-        return Err(Error::ZeroVolume(format!("the {n} faces lie in one plane: no volume")));
+        return Err(Error::ZeroVolume(format!("the mesh of {n} lies in one plane: no volume")));
     }
     let thin = |p: &Part| p.openness <= inside::MOST_OPEN;
     if parts.iter().all(thin) {
         return Err(Error::ZeroVolume(format!(
-            "the {n} faces enclose no volume: the surface lies folded on itself"
+            "the mesh of {n} encloses no volume: the surface lies folded on itself"
         )));
     }
     let (mut sum, mut all) = (0.0, 0.0);
@@ -249,7 +251,7 @@ fn refuse_without_inside(
     }
     let what = if one_sided { "open or one-sided" } else { "open" };
     Err(Error::OpenSurface(format!(
-        "the surface is too {what} to have an inside: from its {n} faces {:.0} % of all \
+        "the surface is too {what} to have an inside: from its {n} {:.0} % of all \
          directions are seen through openings on average, more than {:.0} %",
         100.0 * sum / all,
         100.0 * inside::MOST_OPEN
@@ -265,8 +267,8 @@ fn choose(
     choice: Bodies,
     report: &mut Report,
 ) -> Result<Vec<bool>> {
-    let count = bodies.volumes.len();
-    report.bodies = count as u64;
+    let several = bodies.volumes.len();
+    report.bodies = several as u64;
     let mut largest = 0;
     for (i, v) in bodies.volumes.iter().enumerate() {
         if *v > bodies.volumes[largest] {
@@ -274,28 +276,28 @@ fn choose(
         }
     }
     let volume_of = |i: usize| bodies.volumes[i] * frame.scale.powi(3);
-    if count > 1 {
+    if several > 1 {
         match choice {
             Bodies::Refuse => {
-                let mut by_size: Vec<f64> = reserve("bodies", count)?;
-                by_size.extend((0..count).map(volume_of));
+                let mut by_size: Vec<f64> = reserve("bodies", several)?;
+                by_size.extend((0..several).map(volume_of));
                 by_size.sort_by(|a, b| b.total_cmp(a));
                 return Err(Error::SeveralBodies(format!(
-                    "the mesh is {count} separate bodies (the largest have volumes {:.6e} and \
+                    "the mesh is {several} separate bodies (the largest have volumes {:.6e} and \
                      {:.6e}): choose to keep the largest or all",
                     by_size[0], by_size[1]
                 )));
             }
             Bodies::Largest => {
-                report.bodies_dropped = count as u64 - 1;
+                report.bodies_dropped = several as u64 - 1;
                 report.notes.push(format!(
-                    "of {count} bodies the largest was kept (volume {:.6e}), {} were dropped",
+                    "of {several} bodies the largest was kept (volume {:.6e}), {} dropped",
                     volume_of(largest),
-                    count - 1
+                    several - 1
                 ));
             }
             Bodies::All => {
-                report.notes.push(format!("{count} separate bodies were kept as one particle"));
+                report.notes.push(format!("{several} separate bodies were kept as one particle"));
             }
         }
     }
@@ -317,9 +319,10 @@ fn choose(
     report.volume = volume * frame.scale.powi(3);
     report.area = area * frame.scale * frame.scale;
     if loose > 0 {
-        report
-            .notes
-            .push(format!("{loose} faces of loose sheets that enclose nothing were dropped"));
+        report.notes.push(format!(
+            "dropped {} of loose sheets that enclose nothing",
+            count(loose as u64, "face")
+        ));
     }
     if bodies.overlap {
         report.notes.push(
@@ -376,7 +379,7 @@ fn finish(
     report.box_max = hi.into();
     if !report.watertight {
         report.notes.push(format!(
-            "{} edges have one face and {} more than two: inside is where the winding number is \
+            "edges with one face: {}, with more than two: {}; inside is where the winding number is \
              above ½",
             edges.boundary, edges.nonmanifold
         ));

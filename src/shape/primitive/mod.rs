@@ -5,7 +5,7 @@ mod stone;
 mod tessellate;
 
 use super::{ImportOptions, Shape};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, figure};
 use crate::math::Moments;
 use crate::run::Run;
 
@@ -174,7 +174,8 @@ impl Primitive {
                 || value.fract() != 0.0
             {
                 return Err(Error::InvalidArgument(format!(
-                    "seed of the stone is {value}, not a whole number from 0 to 2^53"
+                    "seed of the stone is {}, not a whole number from 0 to 2^53",
+                    figure(value)
                 )));
             }
             *seed = value as u64;
@@ -238,12 +239,18 @@ impl Primitive {
             range.check(self.name(), key, *slot)?;
         }
         match *self {
-            Primitive::Torus { major, minor } if minor >= major => Err(Error::InvalidArgument(
-                format!("minor of the torus is {minor}, not less than major, {major}"),
-            )),
+            Primitive::Torus { major, minor } if minor >= major => {
+                Err(Error::InvalidArgument(format!(
+                    "minor of the torus is {}, not less than major, {}",
+                    figure(minor),
+                    figure(major)
+                )))
+            }
             Primitive::Tablet { band_radius, cap_height, .. } if cap_height > band_radius => {
                 Err(Error::InvalidArgument(format!(
-                    "cap_height of the tablet is {cap_height}, more than band_radius, {band_radius}"
+                    "cap_height of the tablet is {}, more than band_radius, {}",
+                    figure(cap_height),
+                    figure(band_radius)
                 )))
             }
             _ => Ok(()),
@@ -301,6 +308,7 @@ impl Range {
         if ok {
             return Ok(());
         }
+        let value = figure(value);
         Err(Error::InvalidArgument(format!("{key} of the {name} is {value}, not {range}")))
     }
 }

@@ -108,7 +108,7 @@ impl Numbers {
                     Ok(x as f32)
                 })?;
                 if v.iter().zip(&values).any(|(&x, &y)| x != f64::from(y)) {
-                    notes.push("Voxel values were rounded from double to single precision.".into());
+                    notes.push("voxel values were rounded from double to single precision".into());
                 }
                 RawValues::F32(values)
             }
@@ -139,7 +139,7 @@ fn signed<T: Copy + Into<i64>>(
 ) -> Result<RawValues> {
     if values.iter().any(|&v| !(-EXACT..=EXACT).contains(&v.into())) {
         notes.push(format!(
-            "Voxel values beyond 2^24 were rounded from {bits} integers to single precision."
+            "voxel values beyond 2^24 were rounded from {bits} integers to single precision"
         ));
     }
     Ok(RawValues::F32(map(values, |_, v| Ok(v.into() as f32))?))

@@ -4,7 +4,7 @@
 //! is not a number is no fault, and the line at fault is known.
 
 use super::{RawMesh, Reading, polygon, text};
-use crate::error::{Error, Result, push};
+use crate::error::{Error, Result, count, push};
 use std::fmt::Write;
 use std::io::BufRead;
 
@@ -198,8 +198,8 @@ impl<'a, 'r> Source<'a, 'r> {
 
     fn out_of_range(&self, index: &str, line: usize) -> Error {
         Error::IndexOutOfRange(format!(
-            "line {line}: a face names vertex {index}, but there are {} vertices, counted from 1",
-            self.vertices
+            "line {line}: a face names vertex {index}, but the file has {} (counted from 1)",
+            count(self.vertices, "vertex")
         ))
     }
 }

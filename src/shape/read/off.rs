@@ -3,7 +3,7 @@
 //! the end; or the numbers stand anywhere between white space, without colours.
 
 use super::{RawMesh, Reading, polygon, text};
-use crate::error::{Error, Result, push};
+use crate::error::{Error, Result, count, push};
 
 /// How many numbers each vertex has after x, y, z, when `word` is the magic word
 /// of a variant that is read; `None` when it is not one.
@@ -98,8 +98,10 @@ pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<RawMesh> {
         return Err(text::fault(
             words.line,
             &format!(
-                "the OFF header declares {n} vertices and {m} faces, which take at least {least} \
-                 bytes, but only {left} follow"
+                "the OFF header declares {} and {}, which take at least {least} bytes, but only \
+                 {left} follow",
+                count(n, "vertex"),
+                count(m, "face")
             ),
         ));
     }
@@ -156,8 +158,9 @@ fn elements(
             let c: i64 = words.number(here, &format!("corner {j} of face {i}"))?;
             if c < 0 || c as u64 >= n {
                 return Err(Error::IndexOutOfRange(format!(
-                    "line {}: face {i} names vertex {c}, but there are only {n} vertices",
-                    words.line
+                    "line {}: face {i} names vertex {c}, but the file has only {}",
+                    words.line,
+                    count(n, "vertex")
                 )));
             }
             push("corners", &mut corners, c as u32)?;

@@ -3,7 +3,7 @@
 //! case nor line numbers.
 
 use super::{RawMesh, Reading, text};
-use crate::error::{Error, Result, push};
+use crate::error::{Error, Result, count, push};
 
 const HEADER: usize = 84;
 const FACE: usize = 50;
@@ -45,7 +45,8 @@ fn binary(bytes: &[u8], reading: &Reading) -> Result<RawMesh> {
     let there = bytes.len() - HEADER;
     if n as u64 * FACE as u64 > there as u64 {
         return Err(Error::Format(format!(
-            "the binary STL declares {n} faces, which take {} bytes, but ends at byte {} in face {}",
+            "the binary STL declares {}, up to byte {}, but ends at byte {} in face {}",
+            count(n as u64, "face"),
             n as u64 * FACE as u64 + HEADER as u64,
             bytes.len(),
             there / FACE
@@ -54,7 +55,8 @@ fn binary(bytes: &[u8], reading: &Reading) -> Result<RawMesh> {
     // Less than a face is padding; more is a count that lies.
     if there - n * FACE >= FACE {
         return Err(Error::Format(format!(
-            "the binary STL declares {n} faces, which end at byte {}, but has {} bytes",
+            "the binary STL declares {}, up to byte {}, but has {} bytes",
+            count(n as u64, "face"),
             HEADER + n * FACE,
             bytes.len()
         )));

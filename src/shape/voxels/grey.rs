@@ -1,7 +1,7 @@
 //! Grey volumes: a threshold given, or Otsu's.
 
 use super::{Grey, Layout, Threshold};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, figure};
 use crate::run::{Run, Stage};
 use crate::shape::voxels::mask::build;
 use crate::shape::{ImportOptions, Shape};
@@ -77,17 +77,18 @@ impl Shape {
                 }
             }
             .map_err(|e| match e {
-                Error::Empty(_) => {
-                    Error::Empty(format!("no voxel is greater than the threshold {above}"))
-                }
+                Error::Empty(_) => Error::Empty(format!(
+                    "no voxel is greater than the threshold {}",
+                    figure(above)
+                )),
                 e => e,
             })?;
             shape.report.threshold = above;
             if threshold == Threshold::Otsu {
-                shape
-                    .report
-                    .notes
-                    .push(format!("Voxels greater than {above} are solid (Otsu's threshold)."));
+                shape.report.notes.push(format!(
+                    "voxels greater than {} are solid (Otsu's threshold)",
+                    figure(above)
+                ));
             }
             Ok(shape)
         })
@@ -126,7 +127,8 @@ pub fn otsu(values: Grey) -> Result<f64> {
             });
             return t.map(f64::from).ok_or_else(|| {
                 Error::InvalidArgument(format!(
-                    "every voxel is {lo}: a constant volume has no threshold"
+                    "every voxel is {}: a constant volume has no threshold",
+                    figure(lo)
                 ))
             });
         }

@@ -2,7 +2,7 @@
 
 use super::bodies::Components;
 use super::{Layout, Voxels};
-use crate::error::{self, Error, Result};
+use crate::error::{self, Error, Result, figure};
 use crate::math::{UnitFrame, Vec3};
 use crate::run::{Run, Stage};
 use crate::shape::{Bodies, Body, ImportOptions, Report, Shape};
@@ -105,22 +105,22 @@ pub(super) fn build(
         watertight: true,
         oriented: true,
         length_unit: options.length_unit,
+        notes: options.unit_note().into_iter().collect(),
         ..Report::default()
     };
     let (mut kept, mut dims, mut cells) = (whole, dims, cells);
     if bodies > 1 {
         match options.bodies {
             Bodies::Refuse => return Err(Error::SeveralBodies(refusal(&components))),
-            Bodies::All => report.notes.push(format!("The voxels are {bodies} separate bodies.")),
+            Bodies::All => report.notes.push(format!("the voxels are {bodies} separate bodies")),
             Bodies::Largest => {
                 let (largest, size) = components.largest();
                 let all: u64 = components.sizes().iter().sum();
                 report.bodies_dropped = bodies as u64 - 1;
                 report.notes.push(format!(
-                    "{} of {bodies} bodies were dropped, {} of {all} solid cells; the largest \
-                     body, of {size} cells, is kept.",
-                    bodies - 1,
-                    all - size
+                    "of {bodies} bodies the largest was kept ({size} of {all} solid cells), {} \
+                     dropped",
+                    bodies - 1
                 ));
                 components.keep(largest, &mut cells);
                 drop(components);
@@ -140,7 +140,7 @@ pub(super) fn build(
     report.touches_border = kept.touches(layout.dims);
     if report.touches_border {
         report.notes.push(
-            "Solid cells touch the border of the array: the particle may be cut off there.".into(),
+            "solid cells touch the border of the array: the particle may be cut off there".into(),
         );
     }
     let (count, faces) = census(&cells, dims, run);
@@ -176,7 +176,10 @@ const LARGEST: f64 = 1e60;
 /// that overflows would trap in a host that asks for it.
 fn scaled(what: &str, v: [f64; 3], unit: f64, most: f64) -> Result<[f64; 3]> {
     if !(unit.is_finite() && unit > 0.0) {
-        return Err(Error::InvalidArgument(format!("length_unit is {unit}, not a number > 0")));
+        return Err(Error::InvalidArgument(format!(
+            "length_unit is {}, not a number > 0",
+            figure(unit)
+        )));
     }
     for (x, axis) in v.iter().zip(["x", "y", "z"]) {
         if *x != 0.0 && x.abs().log2() + unit.log2() > most.log2() {

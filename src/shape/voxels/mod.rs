@@ -9,7 +9,7 @@ mod mask;
 pub use grey::{F32_BINS, otsu};
 pub use labels::{list_labels, widen_labels};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, figure};
 use crate::math::Vec3;
 
 /// How an array of voxels lies in space. The array is stored with x fastest:
@@ -114,7 +114,8 @@ impl Layout {
             }
             if h <= 0.0 {
                 return Err(Error::InvalidArgument(format!(
-                    "the spacing along {axis} is {h}, not greater than 0"
+                    "the spacing along {axis} is {}, not greater than 0",
+                    figure(h)
                 )));
             }
         }
