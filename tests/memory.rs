@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+use morula::generate::{GenerateOptions, generate};
 use morula::math::{Sphere, Vec3};
 use morula::measure::{QualityOptions, quality};
 use morula::shape::{Bodies, ImportOptions, Layout, Primitive};
@@ -106,4 +107,56 @@ fn columns_take_little_memory_or_are_refused() {
     let e = q.unwrap_err();
     assert!(matches!(e, Error::MemoryLimit(_)), "{e}");
     assert!(e.to_string().contains("columns") && e.to_string().contains("left of"), "{e}");
+}
+
+/// The field's own lists count beside the solid and the distances themselves.
+#[test]
+fn the_distance_field_is_counted_and_limited() {
+    let shape = ball(200);
+    let with = |memory_limit, threads| {
+        let options = SolidOptions {
+            resolution: Resolution::CellsLongest(48),
+            memory_limit,
+            ..SolidOptions::default()
+        };
+        let run = Run::new(threads).unwrap();
+        let solid = Solid::new(&shape, &options, &run).unwrap();
+        let distance = solid.distance(&run).map(<[f32]>::to_vec);
+        (solid.grid().len() as u64, distance, run.counters().peak_bytes)
+    };
+    let (cells, distance, peak) = with(1 << 30, 1);
+    let distance = distance.unwrap();
+    // A closed mesh has 1.5 edges and half a vertex a face: some hundred bytes each.
+    let lists = (peak - 5 * cells) / faces(&shape);
+    assert!((300..900).contains(&lists), "{lists}");
+    let (_, two, peak_of_two) = with(1 << 30, 2);
+    assert_eq!((two.unwrap(), peak_of_two), (distance.clone(), peak));
+    // Enough, with what tasks leave of their shares; and too little, for each in turn.
+    let (_, enough, _) = with(peak + (16 << 20), 1);
+    assert_eq!(enough.unwrap(), distance);
+    for (limit, words) in [
+        (25 * cells, "features of the mesh"),
+        (5 * cells + 500 * faces(&shape), "that may be nearest"),
+    ] {
+        let text = with(limit, 1).1.unwrap_err().to_string();
+        assert!(text.contains(words) && text.contains("bytes, more than the"), "{text}");
+    }
+}
+
+/// Fewer than 24 bytes a voxel, the surface of the union and the body's own figures included.
+#[test]
+fn mss_takes_few_bytes_a_voxel() {
+    let p = Primitive::Ellipsoid { axes: [2.0, 1.0, 1.0] };
+    let shape = Shape::from_primitive(&p, 64, &ImportOptions::default(), &Run::serial()).unwrap();
+    for (confine, spheres) in [(false, 10), (false, 300), (true, 50)] {
+        let run = Run::serial();
+        let options =
+            SolidOptions { resolution: Resolution::CellsLongest(128), ..SolidOptions::default() };
+        let solid = Solid::new(&shape, &options, &run).unwrap();
+        let options =
+            GenerateOptions { spheres, confine, quality: None, ..GenerateOptions::default() };
+        let clump = generate(&solid, &options, &run).unwrap();
+        let a_voxel = run.counters().peak_bytes as f64 / solid.grid().len() as f64;
+        assert!(clump.spheres.len() > 5 && (4.0..24.0).contains(&a_voxel), "{a_voxel}");
+    }
 }

@@ -35,10 +35,19 @@ struct Task {
     witness: Vec3,
 }
 
-/// Writes the unsigned distances at all cell centres.
-pub(super) fn distances(mesh: &Mesh, grid: &Grid, run: &Run, out: &mut [f32]) -> Result<()> {
+/// Writes the unsigned distances at all cell centres. Takes no more than `room` bytes for that;
+/// returns the most that it took at a time.
+pub(super) fn distances(
+    mesh: &Mesh,
+    grid: &Grid,
+    room: u64,
+    run: &Run,
+    out: &mut [f32],
+) -> Result<u64> {
     let unit = grid.spacing.min();
-    let features = Features::new(mesh, grid, unit)?;
+    let features = Features::new(mesh, grid, unit, room)?;
+    let room = room - features.bytes;
+    let mut most = features.bytes;
     let Some(first) = mesh.faces.first() else {
         return Err(Error::Empty("the mesh has no face".into()));
     };
@@ -50,9 +59,13 @@ pub(super) fn distances(mesh: &Mesh, grid: &Grid, run: &Run, out: &mut [f32]) ->
     let mut done = 0;
     let mut make = |tasks: &[Task]| {
         run.check(done as f64 / grid.len() as f64, "making the distance field")?;
-        let blocks = run.pool().map(tasks.len(), |k| work.block(&tasks[k]));
+        // Any number of threads may be at work on as many of them.
+        let share = room / tasks.len().max(1) as u64;
+        let blocks = run.pool().map(tasks.len(), |k| work.block(&tasks[k], share));
+        let mut bytes = work.features.bytes;
         for (task, block) in tasks.iter().zip(blocks) {
-            let (block, part) = (block?, &task.brick);
+            let ((block, taken), part) = (block?, &task.brick);
+            bytes += taken;
             let [width, rows, _] = part.size();
             for (row, values) in block.chunks(width.max(1)).enumerate() {
                 let at = grid.index(part.lo[0], part.lo[1] + row % rows, part.lo[2] + row / rows);
@@ -62,9 +75,11 @@ pub(super) fn distances(mesh: &Mesh, grid: &Grid, run: &Run, out: &mut [f32]) ->
             }
             done += block.len();
         }
+        most = most.max(bytes);
         Ok(())
     };
-    work.cut(whole, &mut make)
+    work.cut(whole, &mut make)?;
+    Ok(most)
 }
 
 impl Work {
@@ -91,8 +106,9 @@ impl Work {
         tasks.into_iter().try_for_each(|task| self.cut(task, make))
     }
 
-    /// The distances of a task's brick, in shortest cell edges.
-    fn block(&self, task: &Task) -> Result<Vec<f32>> {
+    /// The distances of a task's brick, in shortest cell edges; and the bytes that it took, which
+    /// are no more than `room` but for the last doubling of a list.
+    fn block(&self, task: &Task, room: u64) -> Result<(Vec<f32>, u64)> {
         let mut out =
             filled("a block of the distance field", task.brick.size().iter().product(), 0.0)?;
         let (f, parts) = (&self.features, self.space.parts(&task.brick));
@@ -101,12 +117,23 @@ impl Work {
         let mut lists = <[Candidates; 8]>::default();
         open(f, &self.space, &parts, clusters, &marks, &witnesses, &mut lists)?;
         let mut work: Vec<Lists> = (0..DEPTH).map(|_| Lists::default()).collect();
+        let held = 4 * out.len() as u64 + 5 * clusters.len() as u64;
+        let mut bytes = held;
         for (k, part) in parts.bricks.iter().enumerate() {
             if parts.there >> k & 1 == 1 {
                 self.fill(part, &lists[k], &witnesses[k], &task.brick, &mut work, &mut out)?;
+                let candidates = lists.iter().map(Candidates::bytes).sum::<u64>();
+                bytes = held + candidates + work.iter().map(Lists::bytes).sum::<u64>();
+                if bytes > room {
+                    return Err(Error::MemoryLimit(format!(
+                        "the faces that may be nearest to {} cells take {bytes} bytes, more than \
+                         the {room} that are left of the limit for them",
+                        out.len()
+                    )));
+                }
             }
         }
-        Ok(out)
+        Ok((out, bytes))
     }
 
     /// The distances of a brick, within the block that is being made.

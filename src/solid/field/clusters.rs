@@ -7,7 +7,7 @@ use crate::math::Vec3;
 use std::ops::Range;
 
 /// Vertices of a cluster (4 to 12 cost the same).
-const TOGETHER: usize = 6;
+pub(super) const TOGETHER: usize = 6;
 
 /// Ranges of faces, edges and corners, and a ball around them.
 #[derive(Debug, Clone)]
@@ -36,12 +36,18 @@ pub(super) fn clusters(
         let (f, face_range) = faces.up_to(|f| (f[0].min(f[1]).min(f[2]) as usize) < end);
         let (e, edge_range) = edges.up_to(|e| (e[0].min(e[1]) as usize) < end);
         let (c, corner_range) = corners.up_to(|&c| (c as usize) < end);
-        let vertices = || f.iter().flatten().chain(e.iter().flatten()).chain(c);
-        let at = |v: &u32| points[*v as usize];
-        let Some(first) = vertices().next().map(at) else { continue };
-        let (lo, hi) = vertices().map(at).fold((first, first), |(l, h), p| (l.inf(&p), h.sup(&p)));
+        if f.is_empty() && e.is_empty() && c.is_empty() {
+            continue;
+        }
+        // The ball is about the vertices of the run, and reaches those of all features.
+        let run = &points[start..end];
+        let (lo, hi) = run.iter().fold((run[0], run[0]), |(l, h), p| (l.inf(p), h.sup(p)));
         let center = (lo + hi) * 0.5;
-        let radius = vertices().map(|v| (at(v) - center).norm()).fold(0.0, f64::max);
+        let mut squared = 0.0f64;
+        for &v in f.iter().flatten().chain(e.iter().flatten()).chain(c) {
+            squared = squared.max((points[v as usize] - center).norm_squared());
+        }
+        let radius = squared.sqrt();
         out.push(Cluster {
             faces: face_range,
             edges: edge_range,

@@ -10,9 +10,11 @@
 mod bricks;
 mod cells;
 mod clusters;
+mod corners;
 mod features;
 mod leaf;
 mod regions;
+mod sides;
 mod space;
 mod split;
 
@@ -25,36 +27,33 @@ use crate::shape::{Body, Mesh};
 
 /// Signed distance at every cell centre, negative inside; unit frame.
 pub(super) fn signed_distance(solid: &Solid, run: &Run) -> Result<Vec<f32>> {
-    let out = match solid.body() {
-        Body::Mesh(mesh) => {
-            let bytes = 4 * solid.grid().len() as u64 + features::bytes(mesh.faces.len());
-            if bytes > solid.memory_limit() {
-                return Err(Error::MemoryLimit(format!(
-                    "the distance field of {} cells and {} faces may take {bytes} bytes, more \
-                     than the limit of {}",
-                    solid.grid().len(),
-                    mesh.faces.len(),
-                    solid.memory_limit()
-                )));
-            }
-            of_mesh(solid.body(), mesh, solid.grid(), run)?
-        }
-        Body::Voxels(_) => cells::signed_distance(solid.inside(), solid.grid(), run)?,
-    };
-    Ok(out)
+    match solid.body() {
+        Body::Mesh(mesh) => of_mesh(solid, mesh, run),
+        Body::Voxels(_) => cells::signed_distance(solid.inside(), solid.grid(), run),
+    }
 }
 
 /// The field of a mesh: distances brick by brick, then the sign along rows of cell centres.
-fn of_mesh(body: &Body, mesh: &Mesh, grid: &Grid, run: &Run) -> Result<Vec<f32>> {
+fn of_mesh(solid: &Solid, mesh: &Mesh, run: &Run) -> Result<Vec<f32>> {
     run.check(0.0, "making the distance field")?;
-    let mut out = filled("the distance field", grid.len(), 0.0f32)?;
+    let grid = solid.grid();
+    let (cells, limit) = (grid.len(), solid.memory_limit());
+    let held = solid.bytes() + 4 * cells as u64;
+    let Some(room) = limit.checked_sub(held) else {
+        return Err(Error::MemoryLimit(format!(
+            "the distance field of {cells} cells may take {} bytes, which with the {} of the \
+             solid are more than the limit of {limit}",
+            4 * cells,
+            solid.bytes()
+        )));
+    };
+    let mut out = filled("the distance field", cells, 0.0f32)?;
     if out.is_empty() {
         return Ok(out);
     }
-    bricks::distances(mesh, grid, run, &mut out)?;
-    sign(body, grid, run, &mut out)?;
-    let bytes = 4 * grid.len() as u64 + features::bytes(mesh.faces.len());
-    run.count(|c| c.peak_bytes = c.peak_bytes.max(bytes));
+    let most = bricks::distances(mesh, grid, room, run, &mut out)?;
+    sign(solid.body(), grid, run, &mut out)?;
+    run.count(|c| c.peak_bytes = c.peak_bytes.max(held + most));
     Ok(out)
 }
 

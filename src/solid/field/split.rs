@@ -28,6 +28,12 @@ impl Candidates {
         self.edges.clear();
         self.corners.clear();
     }
+
+    /// What they take.
+    pub(super) fn bytes(&self) -> u64 {
+        let names = self.faces.capacity() + self.edges.capacity() + self.corners.capacity();
+        4 * names as u64
+    }
 }
 
 /// The candidates of a brick's parts, and for each candidate of the brick the parts that its
@@ -36,6 +42,13 @@ impl Candidates {
 pub(super) struct Lists {
     pub parts: [Candidates; 8],
     marks: Vec<u8>,
+}
+
+impl Lists {
+    /// What they take.
+    pub(super) fn bytes(&self) -> u64 {
+        self.marks.capacity() as u64 + self.parts.iter().map(Candidates::bytes).sum::<u64>()
+    }
 }
 
 /// For each part, the candidate nearest to its middle: three times its index, and 0, 1, 2 for a
