@@ -11,7 +11,7 @@ use super::leaf;
 use super::regions::LANES;
 use super::space::{Brick, Space};
 use super::split::{Candidates, Lists, open, split, split_clusters};
-use crate::error::{Error, Result, filled, reserve};
+use crate::error::{Error, Result, filled, fits, reserve};
 use crate::math::Vec3;
 use crate::run::Run;
 use crate::shape::Mesh;
@@ -124,13 +124,8 @@ impl Work {
                 self.fill(part, &lists[k], &witnesses[k], &task.brick, &mut work, &mut out)?;
                 let candidates = lists.iter().map(Candidates::bytes).sum::<u64>();
                 bytes = held + candidates + work.iter().map(Lists::bytes).sum::<u64>();
-                if bytes > room {
-                    return Err(Error::MemoryLimit(format!(
-                        "the faces that may be nearest to {} cells take {bytes} bytes, more than \
-                         the {room} that are left of the limit for them",
-                        out.len()
-                    )));
-                }
+                let what = format_args!("the faces that may be nearest to {} cells", out.len());
+                fits(what, bytes, room)?;
             }
         }
         Ok((out, bytes))

@@ -6,7 +6,7 @@ use super::corners::corners;
 use super::regions::{Corner, Edge, Face, double, rounding};
 use super::sides::{Side, Sides};
 use super::space::longest;
-use crate::error::{Error, Result, filled, reserve};
+use crate::error::{Result, filled, fits, reserve};
 use crate::math::Vec3;
 use crate::shape::Mesh;
 use crate::solid::grid::Grid;
@@ -57,12 +57,7 @@ impl Features {
         let n = mesh.faces.len();
         let held = |edges: usize| {
             let bytes = bytes(n, mesh.vertices.len(), edges);
-            if bytes > room {
-                return Err(Error::MemoryLimit(format!(
-                    "{WHAT}, of {n} faces, may take {bytes} bytes, more than the {room} that are \
-                     left of the limit beside the distance field"
-                )));
-            }
+            fits(format_args!("{WHAT}, of {n} faces,"), bytes, room)?;
             Ok(bytes)
         };
         // Before the edges are counted.

@@ -21,7 +21,7 @@ mod split;
 use super::Solid;
 use super::columns::Columns;
 use super::grid::Grid;
-use crate::error::{Error, Result, filled};
+use crate::error::{Result, filled, fits};
 use crate::run::Run;
 use crate::shape::{Body, Mesh};
 
@@ -37,23 +37,17 @@ pub(super) fn signed_distance(solid: &Solid, run: &Run) -> Result<Vec<f32>> {
 fn of_mesh(solid: &Solid, mesh: &Mesh, run: &Run) -> Result<Vec<f32>> {
     run.check(0.0, "making the distance field")?;
     let grid = solid.grid();
-    let (cells, limit) = (grid.len(), solid.memory_limit());
-    let held = solid.bytes() + 4 * cells as u64;
-    let Some(room) = limit.checked_sub(held) else {
-        return Err(Error::MemoryLimit(format!(
-            "the distance field of {cells} cells may take {} bytes, which with the {} of the \
-             solid are more than the limit of {limit}",
-            4 * cells,
-            solid.bytes()
-        )));
-    };
+    let cells = grid.len();
+    let left = solid.memory_limit().saturating_sub(solid.bytes());
+    let bytes = 4 * cells as u64;
+    fits(format_args!("the distance field of {cells} cells"), bytes, left)?;
     let mut out = filled("the distance field", cells, 0.0f32)?;
     if out.is_empty() {
         return Ok(out);
     }
-    let most = bricks::distances(mesh, grid, room, run, &mut out)?;
+    let most = bricks::distances(mesh, grid, left - bytes, run, &mut out)?;
     sign(solid.body(), grid, run, &mut out)?;
-    run.count(|c| c.peak_bytes = c.peak_bytes.max(held + most));
+    run.count(|c| c.peak_bytes = c.peak_bytes.max(solid.bytes() + bytes + most));
     Ok(out)
 }
 
