@@ -262,6 +262,7 @@ module morula
   public :: morula_shape_from_file, morula_shape_from_bytes, morula_shape_from_mask
   public :: morula_shape_from_grey_u8, morula_shape_from_grey_u16, morula_shape_from_grey_f32
   public :: morula_shape_from_label, morula_labels_count, morula_labels_copy
+  public :: morula_labels_from_file, morula_labels_from_bytes
   public :: morula_primitive_name, morula_primitive_parameter_count
   public :: morula_primitive_copy_parameter, morula_shape_from_primitive
   public :: morula_solid_options_init, morula_solid_from_shape, morula_solid_free
@@ -382,6 +383,36 @@ module morula
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_bytes
+    function morula_labels_from_file(path, import_options, file_options, capacity, ids, cells, &
+        boxes, touches_border, count) bind(c) result(r)
+      import
+      character(kind=c_char), intent(in) :: path(*)
+      type(morula_import_options), intent(in), optional :: import_options
+      type(morula_file_options), intent(in), optional :: file_options
+      integer(c_size_t), value :: capacity
+      integer(c_int32_t), intent(inout), optional :: ids(*)
+      integer(c_int64_t), intent(inout), optional :: cells(*)
+      integer(c_int64_t), intent(inout), optional :: boxes(*)
+      integer(c_int32_t), intent(inout), optional :: touches_border(*)
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_labels_from_file
+    function morula_labels_from_bytes(bytes, byte_count, name, import_options, file_options, &
+        capacity, ids, cells, boxes, touches_border, count) bind(c) result(r)
+      import
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: byte_count
+      character(kind=c_char), intent(in) :: name(*)
+      type(morula_import_options), intent(in), optional :: import_options
+      type(morula_file_options), intent(in), optional :: file_options
+      integer(c_size_t), value :: capacity
+      integer(c_int32_t), intent(inout), optional :: ids(*)
+      integer(c_int64_t), intent(inout), optional :: cells(*)
+      integer(c_int64_t), intent(inout), optional :: boxes(*)
+      integer(c_int32_t), intent(inout), optional :: touches_border(*)
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_labels_from_bytes
     function morula_shape_from_mask(mask, dims, spacing, origin, options, shape) bind(c) result(r)
       import
       integer(c_int8_t), intent(in) :: mask(*)
@@ -755,6 +786,11 @@ module morula
     procedure :: init_import, init_file, init_solid, init_clump
   end interface morula_init
 
+  !> The labels of an array labels(nx, ny, nz), of a file (its path), of the bytes of a file.
+  interface morula_labels
+    procedure :: labels_of_array, labels_of_file, labels_of_bytes
+  end interface morula_labels
+
   public :: morula_init, morula_text, morula_message, morula_name_of_status
   public :: morula_name_of_primitive, morula_name_of_stop, morula_labels
 
@@ -858,7 +894,7 @@ contains
 
   !> The labels of labels(nx, ny, nz), ascending, without 0: ids(n), their cells(n), boxes(6, n)
   !> (first and last cell, counted from 1), and whether they touch the border.
-  subroutine morula_labels(labels, ids, cells, boxes, touches_border, status)
+  subroutine labels_of_array(labels, ids, cells, boxes, touches_border, status)
     integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
     integer(c_int32_t), allocatable, intent(out) :: ids(:)
     integer(c_int64_t), allocatable, intent(out), optional :: cells(:), boxes(:, :)
@@ -875,12 +911,77 @@ contains
       code = morula_labels_copy(labels, shape(labels, c_size_t), n, ids, numbers, corners, touches)
     end if
     if (code == MORULA_STATUS_OK) then
-      if (present(cells)) cells = numbers
-      if (present(boxes)) boxes = corners + 1
-      if (present(touches_border)) touches_border = touches /= 0
+      call hand_over(numbers, corners, touches, cells, boxes, touches_border)
     end if
     call finish(code, status)
-  end subroutine morula_labels
+  end subroutine labels_of_array
+
+  !> The same of a label volume in a file.
+  subroutine labels_of_file(path, ids, cells, boxes, touches_border, options, file_options, status)
+    character(*), intent(in) :: path
+    integer(c_int32_t), allocatable, intent(out) :: ids(:)
+    integer(c_int64_t), allocatable, intent(out), optional :: cells(:), boxes(:, :)
+    logical, allocatable, intent(out), optional :: touches_border(:)
+    type(morula_import_options), intent(in), optional :: options
+    type(morula_file_options), intent(in), optional :: file_options
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    integer(c_int32_t) :: code
+    integer(c_int32_t), allocatable :: touches(:)
+    integer(c_int64_t), allocatable :: numbers(:), corners(:, :)
+    n = 0
+    code = morula_labels_from_file(terminated(path), options, file_options, n, count=n)
+    allocate(ids(n), numbers(n), corners(6, n), touches(n))
+    if (code == MORULA_STATUS_OK) then
+      code = morula_labels_from_file(terminated(path), options, file_options, &
+        size(ids, kind=c_size_t), ids, numbers, corners, touches, n)
+    end if
+    if (code == MORULA_STATUS_OK) then
+      ids = ids(:n)
+      call hand_over(numbers(:n), corners(:, :n), touches(:n), cells, boxes, touches_border)
+    end if
+    call finish(code, status)
+  end subroutine labels_of_file
+
+  !> The same of the bytes of a file; the name helps where they do not tell the format.
+  subroutine labels_of_bytes(bytes, name, ids, cells, boxes, touches_border, options, &
+      file_options, status)
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    character(*), intent(in) :: name
+    integer(c_int32_t), allocatable, intent(out) :: ids(:)
+    integer(c_int64_t), allocatable, intent(out), optional :: cells(:), boxes(:, :)
+    logical, allocatable, intent(out), optional :: touches_border(:)
+    type(morula_import_options), intent(in), optional :: options
+    type(morula_file_options), intent(in), optional :: file_options
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    integer(c_int32_t) :: code
+    integer(c_int32_t), allocatable :: touches(:)
+    integer(c_int64_t), allocatable :: numbers(:), corners(:, :)
+    n = 0
+    code = morula_labels_from_bytes(bytes, size(bytes, kind=c_size_t), terminated(name), options, &
+      file_options, n, count=n)
+    allocate(ids(n), numbers(n), corners(6, n), touches(n))
+    if (code == MORULA_STATUS_OK) then
+      code = morula_labels_from_bytes(bytes, size(bytes, kind=c_size_t), terminated(name), options, &
+        file_options, n, ids, numbers, corners, touches, n)
+    end if
+    if (code == MORULA_STATUS_OK) then
+      call hand_over(numbers, corners, touches, cells, boxes, touches_border)
+    end if
+    call finish(code, status)
+  end subroutine labels_of_bytes
+
+  !> What is known of labels, in Fortran's counting, as far as it is asked for.
+  subroutine hand_over(numbers, corners, touches, cells, boxes, touches_border)
+    integer(c_int64_t), intent(in) :: numbers(:), corners(:, :)
+    integer(c_int32_t), intent(in) :: touches(:)
+    integer(c_int64_t), allocatable, intent(out), optional :: cells(:), boxes(:, :)
+    logical, allocatable, intent(out), optional :: touches_border(:)
+    if (present(cells)) cells = numbers
+    if (present(boxes)) boxes = corners + 1
+    if (present(touches_border)) touches_border = touches /= 0
+  end subroutine hand_over
 
   ! ---- morula_shape_t ----
 

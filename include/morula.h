@@ -773,6 +773,51 @@ int32_t morula_shape_from_bytes(const uint8_t *bytes,
                                 const struct morula_file_options *file,
                                 struct morula_shape **shape);
 
+/// Lists the labels of a label volume in a file, ascending, without 0;
+/// morula_shape_from_file() makes a shape of one of them with the meaning
+/// MORULA_MEANING_LABEL. The file is read as by that function; values of 8 or 16
+/// bits or whole floating-point numbers are labels as well.
+///
+/// Parameters: `path` is the file's name (UTF-8); `import` (memory_limit,
+/// progress) and `file` (not its meaning) may be NULL for the defaults;
+/// `capacity`, `ids`, `cells`, `boxes`, `touches_border` as
+/// morula_labels_copy(), and with all of the arrays NULL the labels are only
+/// counted; `count` becomes their number.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (an option, a mesh,
+/// or a value that is no label); BUFFER_TOO_SMALL (nothing is written); IO;
+/// FORMAT (with the byte); UNSUPPORTED; STRUCT_SIZE; EMPTY; TOO_LARGE;
+/// MEMORY_LIMIT; OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_labels_from_file(const char *path,
+                                const struct morula_import_options *import,
+                                const struct morula_file_options *file,
+                                size_t capacity,
+                                uint32_t *ids,
+                                uint64_t *cells,
+                                uint64_t *boxes,
+                                int32_t *touches_border,
+                                size_t *count);
+
+/// Lists the labels of a label volume in the bytes of a file in memory, as
+/// morula_labels_from_file().
+///
+/// Parameters: `bytes` holds `byte_count` bytes; `name` is the file's name, which
+/// helps where the content does not tell the format (may be NULL); the others as
+/// morula_labels_from_file().
+/// Returns: as morula_labels_from_file(), but never IO.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_labels_from_bytes(const uint8_t *bytes,
+                                 size_t byte_count,
+                                 const char *name,
+                                 const struct morula_import_options *import,
+                                 const struct morula_file_options *file,
+                                 size_t capacity,
+                                 uint32_t *ids,
+                                 uint64_t *cells,
+                                 uint64_t *boxes,
+                                 int32_t *touches_border,
+                                 size_t *count);
+
 /// Makes a shape from a mask of voxels: those that are not 0 are solid.
 ///
 /// Parameters: `dims` holds the numbers of cells nx, ny, nz along x, y, z and

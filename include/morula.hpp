@@ -295,22 +295,55 @@ struct Label {
   bool touches_border;
 };
 
-/// The labels of a volume, ascending, without 0.
-inline std::vector<Label> labels(const std::vector<std::uint32_t> &volume, const Layout &layout) {
-  layout.require(volume.size());
+namespace detail {
+/// The labels that `list(capacity, ids, cells, boxes, touches_border, count)` gives; without
+/// arrays it only counts.
+template <class List>
+std::vector<Label> labels(List list) {
   std::size_t n = 0;
-  check(morula_labels_count(volume.data(), layout.dims.data(), &n));
+  check(list(n, nullptr, nullptr, nullptr, nullptr, &n));
   std::vector<std::uint32_t> ids(n);
   std::vector<std::uint64_t> cells(n), boxes(6 * n);
   std::vector<std::int32_t> touches(n);
-  check(morula_labels_copy(volume.data(), layout.dims.data(), n, ids.data(), cells.data(),
-                           boxes.data(), touches.data()));
+  check(list(n, ids.data(), cells.data(), boxes.data(), touches.data(), &n));
   std::vector<Label> all;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < ids.size() && i < n; ++i) {
     const std::uint64_t *b = &boxes[6 * i];
     all.push_back({ids[i], cells[i], {b[0], b[1], b[2]}, {b[3], b[4], b[5]}, touches[i] != 0});
   }
   return all;
+}
+}  // namespace detail
+
+/// The labels of a volume, ascending, without 0.
+inline std::vector<Label> labels(const std::vector<std::uint32_t> &volume, const Layout &layout) {
+  layout.require(volume.size());
+  return detail::labels([&](std::size_t n, std::uint32_t *ids, std::uint64_t *cells,
+                            std::uint64_t *boxes, std::int32_t *touches, std::size_t *count) {
+    const auto *dims = layout.dims.data();
+    return ids ? morula_labels_copy(volume.data(), dims, n, ids, cells, boxes, touches)
+               : morula_labels_count(volume.data(), dims, count);
+  });
+}
+
+/// The labels of a label volume in a file.
+inline std::vector<Label> labels_from_file(const std::string &path,
+                                           const ImportOptions &options = {},
+                                           const FileOptions &file = {}) {
+  return detail::labels([&](std::size_t n, auto... to) {
+    return morula_labels_from_file(path.c_str(), &options, &file, n, to...);
+  });
+}
+
+/// The same of the bytes of a file; `name` helps where they do not tell the format.
+inline std::vector<Label> labels_from_bytes(const std::vector<std::uint8_t> &bytes,
+                                            const std::string &name = {},
+                                            const ImportOptions &options = {},
+                                            const FileOptions &file = {}) {
+  return detail::labels([&](std::size_t n, auto... to) {
+    return morula_labels_from_bytes(bytes.data(), bytes.size(), name.c_str(), &options, &file, n,
+                                    to...);
+  });
 }
 
 /// A shape with a grid.

@@ -229,8 +229,10 @@ fn the_fortran_example_calls_every_function() {
         });
         let mut ways = aliases.collect::<Vec<_>>();
         ways.push(procedure.to_owned());
-        if procedure.starts_with("init_") {
-            ways.push("morula_init".to_owned());
+        for (prefix, generic) in [("init_", "morula_init"), ("labels_of_", "morula_labels")] {
+            if procedure.starts_with(prefix) {
+                ways.push(generic.to_owned());
+            }
         }
         let used = ways.iter().any(|way| {
             [" ", "%", "("].iter().any(|before| example.contains(&format!("{before}{way}(")))

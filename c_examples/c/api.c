@@ -130,6 +130,50 @@ static void shapes(void) {
   morula_shape_free(shape);
 }
 
+/* The labels of 4 x 3 x 2 cells in a file: raw, after a byte to skip. */
+static void labels_of_files(const uint32_t labels[24], const uint32_t ids[2],
+                            const uint64_t cells[2], const uint64_t boxes[12],
+                            const int32_t touches[2]) {
+  float f32[24];
+  uint8_t bytes[1 + sizeof f32] = {0};
+  for (int i = 0; i < 24; i++) f32[i] = (float)labels[i];
+  memcpy(bytes + 1, f32, sizeof f32);
+  morula_file_options file;
+  OK(morula_file_options_init(&file, sizeof file));
+  file.format = MORULA_FORMAT_RAW;
+  file.raw_type = MORULA_RAW_F32;
+  file.raw_skip = 1;
+  file.raw_dims[0] = 4;
+  file.raw_dims[1] = 3;
+  file.raw_dims[2] = 2;
+  const char *path = "api_labels.raw";
+  FILE *out = fopen(path, "wb");
+  CHECK(out && fwrite(bytes, 1, sizeof bytes, out) == sizeof bytes);
+  if (out) fclose(out);
+  for (int from_file = 0; from_file < 2; from_file++) {
+    uint32_t found_ids[3] = {0};
+    uint64_t found_cells[2] = {0}, found_boxes[12] = {0};
+    int32_t found_touches[2] = {0};
+    size_t count = 0, again = 77;
+    if (from_file) {
+      OK(morula_labels_from_file(path, NULL, &file, 0, NULL, NULL, NULL, NULL, &count));
+      OK(morula_labels_from_file(path, NULL, &file, 2, found_ids, found_cells, found_boxes,
+                                 found_touches, &again));
+    } else {
+      OK(morula_labels_from_bytes(bytes, sizeof bytes, NULL, NULL, &file, 0, NULL, NULL, NULL,
+                                  NULL, &count));
+      OK(morula_labels_from_bytes(bytes, sizeof bytes, NULL, NULL, &file, 3, found_ids,
+                                  found_cells, found_boxes, found_touches, &again));
+    }
+    CHECK(count == 2 && again == 2 && found_ids[2] == 0);
+    CHECK(memcmp(found_ids, ids, 2 * sizeof *ids) == 0);
+    CHECK(memcmp(found_cells, cells, 2 * sizeof *cells) == 0);
+    CHECK(memcmp(found_boxes, boxes, 12 * sizeof *boxes) == 0);
+    CHECK(memcmp(found_touches, touches, 2 * sizeof *touches) == 0);
+  }
+  remove(path);
+}
+
 static void voxels(void) {
   /* 4 x 3 x 2 cells, x fastest, spacing 1, 2, 3. */
   uint8_t u8[24];
@@ -181,6 +225,7 @@ static void voxels(void) {
   CHECK(memcmp(boxes, box, sizeof box) == 0);
   CHECK(touches[0] == 1 && touches[1] == 1);
   OK(morula_labels_copy(labels, dims, 2, NULL, NULL, NULL, NULL));
+  labels_of_files(labels, ids, cells, boxes, touches);
 }
 
 static void primitives(void) {

@@ -118,6 +118,31 @@ static void files(void) {
   STATUS(morula_shape_from_bytes((const uint8_t *)"OFF", 3, NULL, NULL, &o, &shape),
          MORULA_STATUS_INVALID_ARGUMENT);
   CHECK(shape == UNTOUCHED);
+
+  /* Labels: 0, 7 and 9 in three raw bytes. */
+  const uint8_t *off = (const uint8_t *)"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const uint8_t raw[3] = {0, 7, 9};
+  uint32_t ids[2] = {5, 5};
+  size_t n = 77;
+  STATUS(morula_labels_from_bytes(raw, 3, NULL, NULL, &o, 2, ids, NULL, NULL, NULL, &n),
+         MORULA_STATUS_INVALID_ARGUMENT);
+  o.format = MORULA_FORMAT_RAW;
+  o.raw_dims[0] = 3;
+  o.raw_dims[1] = o.raw_dims[2] = 1;
+  STATUS(morula_labels_from_bytes(raw, 3, NULL, NULL, &o, 1, ids, NULL, NULL, NULL, &n),
+         MORULA_STATUS_BUFFER_TOO_SMALL);
+  STATUS(morula_labels_from_bytes(raw, 3, NULL, NULL, &o, 2, ids, NULL, NULL, NULL, NULL),
+         MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_labels_from_bytes(NULL, 3, NULL, NULL, &o, 2, ids, NULL, NULL, NULL, &n),
+         MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_labels_from_bytes(off, strlen((const char *)off), NULL, NULL, NULL, 2, ids, NULL,
+                                  NULL, NULL, &n),
+         MORULA_STATUS_INVALID_ARGUMENT);
+  STATUS(morula_labels_from_file("there/is/no/such.npy", NULL, NULL, 2, ids, NULL, NULL, NULL, &n),
+         MORULA_STATUS_IO);
+  STATUS(morula_labels_from_file(NULL, NULL, NULL, 2, ids, NULL, NULL, NULL, &n),
+         MORULA_STATUS_NULL_POINTER);
+  CHECK(n == 77 && ids[0] == 5 && ids[1] == 5);
 }
 
 static void primitives(void) {

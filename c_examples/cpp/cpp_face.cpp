@@ -139,6 +139,20 @@ int main() {
   const auto labels = morula::labels(volume, {{4, 1, 1}});
   CHECK(labels.size() == 2 && labels[0].id == 3 && labels[1].cells == 2);
   CHECK(labels[0].touches_border && labels[1].first[0] == 1 && labels[1].last[0] == 2);
+  morula::FileOptions raw;
+  raw.format = MORULA_FORMAT_RAW;
+  raw.raw_dims[0] = 4;
+  raw.raw_dims[1] = raw.raw_dims[2] = 1;
+  const std::vector<std::uint8_t> cells{0, 7, 7, 3};
+  std::ofstream("cpp_labels.raw", std::ios::binary).write("\0\7\7\3", 4);
+  for (const auto &of_file : {morula::labels_from_bytes(cells, "labels.raw", {}, raw),
+                              morula::labels_from_file("cpp_labels.raw", {}, raw)}) {
+    CHECK(of_file.size() == 2 && of_file[0].id == 3 && of_file[0].touches_border);
+    CHECK(of_file[1].id == 7 && of_file[1].cells == 2 && of_file[1].last[0] == 2);
+  }
+  std::remove("cpp_labels.raw");
+  CHECK(status_of([&] { morula::labels_from_file("cpp_labels.raw", {}, raw); }) ==
+        MORULA_STATUS_IO);
   const std::string off =
       "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
   const std::vector<std::uint8_t> bytes(off.begin(), off.end());

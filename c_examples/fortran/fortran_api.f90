@@ -215,6 +215,28 @@ contains
     call check(cells(2) == 2 .and. boxes(1, 2) == 2 .and. boxes(4, 2) == 3, 'their cells and boxes')
     call check(touches(1), 'their border')
 
+    ! The same of a file.
+    call morula_init(file_options)
+    file_options%format = MORULA_FORMAT_RAW
+    file_options%raw_dims = [4_c_int64_t, 1_c_int64_t, 1_c_int64_t]
+    bytes = int([0, 7, 7, 3], c_int8_t)
+    open (newunit=unit, file='fortran_labels.raw', access='stream', status='replace')
+    write (unit) bytes
+    close (unit)
+    do i = 1, 2
+      if (i == 1) call morula_labels(bytes, '', ids, cells, boxes, touches, file_options=file_options)
+      if (i == 2) then
+        call morula_labels('fortran_labels.raw', ids, cells, boxes, touches, file_options=file_options)
+      end if
+      call check(size(ids) == 2 .and. ids(1) == 3 .and. ids(2) == 7, 'labels of a file')
+      call check(cells(2) == 2 .and. boxes(1, 2) == 2 .and. boxes(4, 2) == 3, 'their cells')
+      call check(touches(1), 'their border')
+    end do
+    open (newunit=unit, file='fortran_labels.raw')
+    close (unit, status='delete')
+    call morula_labels('fortran_labels.raw', ids, file_options=file_options, status=status)
+    call check(status == MORULA_STATUS_IO .and. size(ids) == 0, 'no such file')
+
     ! A file, and its bytes.
     off = 'OFF' // new_line('a') // '4 4 0' // new_line('a') // '0 0 0' // new_line('a') // &
       '1 0 0' // new_line('a') // '0 1 0' // new_line('a') // '0 0 1' // new_line('a') // &

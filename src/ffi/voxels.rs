@@ -4,7 +4,7 @@ use super::guard::{array_or, guard, require, slice};
 use super::shape::{give_shape, import, morula_shape, put};
 use super::structs::morula_import_options;
 use crate::error::{Error, Result};
-use crate::shape::voxels::{Grey, Threshold, list_labels};
+use crate::shape::voxels::{Grey, LabelInfo, Threshold, list_labels};
 use crate::shape::{Layout, Shape};
 
 /// Spacing and origin as the library wants them.
@@ -245,10 +245,35 @@ pub unsafe extern "C" fn morula_labels_copy(
     guard(|| {
         let layout = unsafe { layout(dims, std::ptr::null(), std::ptr::null())? };
         let labels = unsafe { self::cells(labels, layout.dims, "labels")? };
-        let all = list_labels(labels, &layout)?;
-        if capacity < all.len() {
+        let to = LabelArrays { capacity, ids, cells, boxes, touches_border };
+        unsafe { to.put(&list_labels(labels, &layout)?) }
+    })
+}
+
+/// The caller's arrays for labels; those not asked for are NULL.
+pub(super) struct LabelArrays {
+    pub capacity: usize,
+    pub ids: *mut u32,
+    pub cells: *mut u64,
+    pub boxes: *mut u64,
+    pub touches_border: *mut i32,
+}
+
+impl LabelArrays {
+    /// Whether any is asked for.
+    pub fn any(&self) -> bool {
+        !(self.ids.is_null()
+            && self.cells.is_null()
+            && self.boxes.is_null()
+            && self.touches_border.is_null())
+    }
+
+    /// Writes the labels; nothing where there is no room for all of them.
+    pub unsafe fn put(self, all: &[LabelInfo]) -> Result<()> {
+        if self.capacity < all.len() {
             return Err(Error::BufferTooSmall(format!(
-                "the arrays have room for {capacity} of {} labels",
+                "the arrays have room for {} of {} labels",
+                self.capacity,
                 all.len()
             )));
         }
@@ -256,10 +281,10 @@ pub unsafe extern "C" fn morula_labels_copy(
         fn writable<T>(to: *mut T, name: &str) -> Result<()> {
             if to.is_null() { Ok(()) } else { require(to, name) }
         }
-        writable(ids, "ids")?;
-        writable(cells, "cells")?;
-        writable(boxes, "boxes")?;
-        writable(touches_border, "touches_border")?;
+        writable(self.ids, "ids")?;
+        writable(self.cells, "cells")?;
+        writable(self.boxes, "boxes")?;
+        writable(self.touches_border, "touches_border")?;
         unsafe fn each<T>(to: *mut T, values: impl Iterator<Item = T>) {
             if !to.is_null() {
                 for (i, value) in values.enumerate() {
@@ -269,11 +294,11 @@ pub unsafe extern "C" fn morula_labels_copy(
         }
         let corners = all.iter().flat_map(|l| l.first.into_iter().chain(l.last));
         unsafe {
-            each(ids, all.iter().map(|l| l.label));
-            each(cells, all.iter().map(|l| l.cells));
-            each(boxes, corners.map(|v| v as u64));
-            each(touches_border, all.iter().map(|l| l.touches_border.into()));
+            each(self.ids, all.iter().map(|l| l.label));
+            each(self.cells, all.iter().map(|l| l.cells));
+            each(self.boxes, corners.map(|v| v as u64));
+            each(self.touches_border, all.iter().map(|l| l.touches_border.into()));
         }
         Ok(())
-    })
+    }
 }

@@ -9,7 +9,7 @@ mod common;
 use arrays::{encoded, npy};
 use common::data;
 use morula::error::Error;
-use morula::shape::read::{FileOptions, Format, Meaning, RawType, file_labels};
+use morula::shape::read::{FileOptions, Format, Meaning, RawType, bytes_labels, file_labels};
 use morula::shape::voxels::Threshold;
 use morula::shape::{Bodies, Body, ImportOptions};
 use morula::{Result, Run, Shape};
@@ -213,10 +213,23 @@ fn labels_of_a_file_are_listed() {
     std::fs::create_dir_all(&folder).unwrap();
     let path = folder.join("labels.npy");
     let data: Vec<u8> = [0u16, 7, 7, 300].iter().flat_map(|v| v.to_le_bytes()).collect();
-    std::fs::write(&path, npy("<u2", false, [1, 1, 4], &data)).unwrap();
-    let list = file_labels(&path, &options()).unwrap();
+    let bytes = npy("<u2", false, [1, 1, 4], &data);
+    std::fs::write(&path, &bytes).unwrap();
+    let run = Run::serial();
+    let list = file_labels(&path, &options(), &run).unwrap();
+    assert_eq!(bytes_labels(&bytes, "", &options(), &run).unwrap(), list);
     let found: Vec<_> = list.iter().map(|l| (l.label, l.cells, l.first[0], l.last[0])).collect();
     assert_eq!(found, [(7, 2, 1, 2), (300, 1, 3, 3)]);
+    // Two bytes a voxel as read, four as labels.
+    let mut small = options();
+    small.import.memory_limit = 23;
+    let e = bytes_labels(&bytes, "", &small, &run).unwrap_err();
+    assert!(matches!(&e, Error::MemoryLimit(s) if s.contains("need 24 bytes")), "{e}");
+    let cancel = Run::serial().with_progress(Box::new(|fraction| fraction > 0.0));
+    let e = bytes_labels(&bytes, "", &options(), &cancel).unwrap_err();
+    assert!(matches!(e, Error::Cancelled(_)), "{e}");
+    let e = bytes_labels(b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "", &options(), &run);
+    assert!(matches!(e, Err(Error::InvalidArgument(s)) if s.starts_with("the file is a mesh")));
     std::fs::remove_dir_all(folder).unwrap();
 }
 

@@ -3,13 +3,15 @@
 use crate::fail::{About, Done};
 use crate::input::Reading;
 use crate::write;
+use morula::Run;
 use morula::shape::read::file_labels;
 use morula::shape::voxels::LabelInfo;
 use serde_json::{Value, json};
 use std::path::Path;
 
 pub fn run(input: &str, reading: &Reading, as_json: bool) -> Done {
-    let labels = file_labels(Path::new(input), &reading.file_options()?).about(input)?;
+    let labels = file_labels(Path::new(input), &reading.file_options()?, &Run::serial());
+    let labels = labels.about(input)?;
     write::to_stdout(|out| {
         if as_json {
             let list: Vec<Value> = labels.iter().map(object).collect();

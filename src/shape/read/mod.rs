@@ -192,17 +192,36 @@ fn name_of(path: &Path) -> std::borrow::Cow<'_, str> {
 }
 
 /// The labels of a label volume in a file, ascending, without 0; [`Meaning::Label`]
-/// takes one of them.
-pub fn file_labels(path: &Path, options: &FileOptions) -> Result<Vec<LabelInfo>> {
-    let run = Run::serial();
+/// takes one of them. The meaning in the options plays no part.
+pub fn file_labels(path: &Path, options: &FileOptions, run: &Run) -> Result<Vec<LabelInfo>> {
     let name = name_of(path);
     let raw = {
-        let bytes = load(path, options.import.memory_limit, &run)?;
-        read(&bytes, &name, options, bytes.len() as u64, &run)?
+        let bytes = load(path, options.import.memory_limit, run)?;
+        read(&bytes, &name, options, bytes.len() as u64, run)?
     };
+    labels(raw, &name, options, run)
+}
+
+/// The labels of a label volume in the bytes of a file, as [`file_labels`].
+pub fn bytes_labels(
+    bytes: &[u8],
+    name: &str,
+    options: &FileOptions,
+    run: &Run,
+) -> Result<Vec<LabelInfo>> {
+    labels(read(bytes, name, options, 0, run)?, name, options, run)
+}
+
+fn labels(raw: Raw, name: &str, options: &FileOptions, run: &Run) -> Result<Vec<LabelInfo>> {
+    run.check(0.5, "listing the labels")?;
     match raw {
-        Raw::Voxels(v) => list_labels(&voxels::as_labels(v.values)?, &v.layout),
-        Raw::Mesh(_) => Err(Error::InvalidArgument(format!("{name} is a mesh: it has no labels"))),
+        Raw::Voxels(v) => {
+            list_labels(&voxels::labels(v.values, options.import.memory_limit)?, &v.layout)
+        }
+        Raw::Mesh(_) => {
+            let name = if name.is_empty() { "the file" } else { name };
+            Err(Error::InvalidArgument(format!("{name} is a mesh: it has no labels")))
+        }
     }
 }
 

@@ -42,12 +42,7 @@ pub(super) fn shape(voxels: RawVoxels, options: &FileOptions, run: &Run) -> Resu
         (_, Meaning::Auto) => cells,
         (_, Meaning::Grey(_)) => 0,
     };
-    if bytes.saturating_add(more) > limit {
-        return Err(Error::MemoryLimit(format!(
-            "{cells} voxels and what is made of them need {} bytes, the limit is {limit}",
-            bytes.saturating_add(more)
-        )));
-    }
+    within(cells, bytes.saturating_add(more), limit)?;
     let bytes = bytes + more;
     let label_like = match options.meaning {
         Meaning::Auto if !is_mask(&values) => label_like(&values),
@@ -154,8 +149,26 @@ fn label_like(values: &RawValues) -> u64 {
     }
 }
 
+/// The values as labels, both within the limit.
+pub(super) fn labels(values: RawValues, limit: u64) -> Result<Vec<u32>> {
+    let cells = values.len() as u64;
+    let more = if matches!(values, RawValues::U32(_)) { 0 } else { 4 * cells };
+    within(cells, values.bytes().saturating_add(more), limit)?;
+    as_labels(values)
+}
+
+/// Refuses voxels that take more than the limit, with what is made of them.
+fn within(cells: u64, bytes: u64, limit: u64) -> Result<()> {
+    if bytes <= limit {
+        return Ok(());
+    }
+    Err(Error::MemoryLimit(format!(
+        "{cells} voxels and what is made of them need {bytes} bytes, the limit is {limit}"
+    )))
+}
+
 /// The values as labels.
-pub(super) fn as_labels(values: RawValues) -> Result<Vec<u32>> {
+fn as_labels(values: RawValues) -> Result<Vec<u32>> {
     match values {
         RawValues::U8(v) => widen_labels(&v),
         RawValues::U16(v) => widen_labels(&v),
