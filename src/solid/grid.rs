@@ -271,6 +271,13 @@ fn of_mesh(
     let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
     let grid = Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half };
     let inside = coverage::inside(&shape.body, &grid, options.padding, options.memory_limit, run)?;
+    if !inside.contains(&1) && h >= edges.max() {
+        return Err(Error::Empty(format!(
+            "cells of {:.3e} are larger than the shape, {:.3e} along its longest edge",
+            h * scale,
+            edges.max() * scale
+        )));
+    }
     if !inside.contains(&1) {
         return Err(Error::Empty(format!(
             "the shape is too thin for its grid, no cell is more than half covered: {}",
