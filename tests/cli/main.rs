@@ -4,6 +4,7 @@
 
 mod clumps;
 mod failures;
+mod options;
 mod pictures;
 mod shapes;
 

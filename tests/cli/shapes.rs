@@ -16,7 +16,7 @@ fn info_tells_report_and_moments() {
 }
 
 /// A version 1.0 .npy file of unsigned bytes in C order.
-fn npy(shape: &str, data: &[u8]) -> Vec<u8> {
+pub fn npy(shape: &str, data: &[u8]) -> Vec<u8> {
     let mut header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}");
     while (10 + header.len() + 1) % 64 != 0 {
         header.push(' ');
@@ -73,6 +73,65 @@ fn voxels_and_labels_are_read() {
     ]);
     let v: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(v["report"]["solid_cells"], 64 + 3 * 9 * 8);
+
+    // Lengths that were scaled are said to be, as for a mesh.
+    let printed = succeeds(&["info", text(&path), "--label", "1", "--length-unit", "0.001"]);
+    assert!(printed.contains("lengths were multiplied by 0.001 on import"), "{printed}");
+}
+
+#[test]
+fn labels_that_were_not_asked_for_are_heard_of() {
+    let folder = folder("labels");
+    let path = folder.join("labels.npy");
+    let data: Vec<u8> = (0..6 * 6 * 6).map(|i| [0, 0, 3, 3, 3, 5][i % 6]).collect();
+    std::fs::write(&path, npy("(6, 6, 6)", &data)).unwrap();
+    let clump = ["clump", text(&path), "-n", "3"];
+    let output = morula(&clump);
+    let said = stderr(&output);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(said.starts_with("note: ") && said.lines().count() == 1, "{said}");
+    assert!(said.contains("--labels") && said.contains("--label takes one"), "{said}");
+    for more in [["--label", "3"], ["--threshold", "otsu"]] {
+        succeeds(&[&clump[..], &more].concat());
+    }
+    succeeds(&[&clump[..], &["-q"]].concat());
+}
+
+#[test]
+fn raw_is_raw_whatever_it_looks_like() {
+    let path = folder("raw").join("mask.npy");
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.resize(64, 1);
+    std::fs::write(&path, bytes).unwrap();
+    let printed = succeeds(&["info", text(&path), "--raw", "4x4x4", "--threshold", "0", "--json"]);
+    let v: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(v["report"]["solid_cells"], 63);
+    fails(&["info", text(&path), "--threshold", "0"], 1);
+}
+
+#[test]
+fn counts_and_zeros_read_well() {
+    let words = succeeds(&["info", "sample:box"]);
+    assert!(words.contains("1 (1 component)\n") && !words.contains("-0.000000e0"), "{words}");
+}
+
+#[test]
+fn a_seed_reaches_the_stone() {
+    let area = |arguments: &[&str]| -> f64 {
+        let all = [&["info", "--json"], arguments].concat();
+        let v: Value = serde_json::from_str(&succeeds(&all)).unwrap();
+        v["report"]["area"].as_f64().unwrap()
+    };
+    let seventh = area(&["sample:stone,seed=7"]);
+    assert_eq!(area(&["sample:stone", "--seed", "7"]), seventh);
+    assert_ne!(area(&["sample:stone"]), seventh);
+    // What the name says itself stands.
+    assert_eq!(area(&["sample:stone,seed=7", "--seed", "8"]), seventh);
+    let clump = |input: &str, more: &[&str]| {
+        succeeds(&[&["clump", input, "-n", "3", "--cells", "16"], more].concat())
+    };
+    assert_eq!(clump("sample:stone", &["--seed", "7"]), clump("sample:stone,seed=7", &[]));
+    assert_ne!(clump("sample:stone", &[]), clump("sample:stone,seed=7", &[]));
 }
 
 #[test]

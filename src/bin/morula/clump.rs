@@ -1,10 +1,12 @@
 //! `morula clump`: a shape in, spheres out.
 
 use crate::fail::{About, Done, Fail};
+use crate::input::parse::{finite, not_negative, positive, whole};
 use crate::input::{self, Fineness, Reading};
 use crate::progress::Bar;
 use crate::write::{self, ClumpFormat};
 use clap::ValueEnum;
+use morula::error::count;
 use morula::generate::{Effort, GenerateOptions, Method, generate};
 use morula::measure::QualityOptions;
 use morula::{Clump, Run, Shape, Solid};
@@ -18,7 +20,7 @@ pub struct Args {
     input: String,
     /// Number of spheres; 0: no limit, which takes another criterion [default: 50, or 0 with
     /// --mismatch or --min-radius]
-    #[arg(short = 'n', long = "spheres", value_name = "N")]
+    #[arg(short = 'n', long = "spheres", value_name = "N", value_parser = whole::<usize>)]
     spheres: Option<usize>,
     /// File to write; - is stdout [default: stdout]
     #[arg(short, long, value_name = "FILE")]
@@ -33,20 +35,17 @@ pub struct Args {
     #[arg(long, value_enum, default_value_t = Frame::Input)]
     frame: Frame,
     /// Density, mass per cubed length unit: adds mass, centre and inertia to the figures
-    #[arg(long, value_parser = input::positive)]
+    #[arg(long, value_parser = positive)]
     density: Option<f64>,
     /// Quality to measure: overlap (D, coverage, overshoot), full (also the surface), none
     #[arg(long, value_enum, default_value_t = Wanted::Full)]
     quality: Wanted,
     /// Count the spheres that one plane touches within this length; may be given more than once
-    #[arg(long, value_name = "LENGTH", value_parser = input::positive)]
+    #[arg(long, value_name = "LENGTH", value_parser = positive)]
     plane_tolerance: Vec<f64>,
     /// Threads; 0: all cores. The result does not depend on it
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = whole::<usize>)]
     threads: usize,
-    /// Seed of every random choice
-    #[arg(long, default_value_t = 0)]
-    seed: u64,
     /// No progress bar, no summary
     #[arg(short, long)]
     quiet: bool,
@@ -67,21 +66,22 @@ struct Making {
     /// How long method best looks for a clump
     #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
     effort: EffortArg,
-    /// Stop at this mismatch D
-    #[arg(long, value_name = "D", value_parser = input::not_negative)]
+    /// Stop at this mismatch D, counted on the method's own grid: the D that is measured on the
+    /// result may differ a little, less so with more --cells
+    #[arg(long, value_name = "D", value_parser = not_negative)]
     mismatch: Option<f64>,
     /// Stop at the first checkpoint after this many seconds, with the spheres found so far;
     /// with -n 0 the only criterion
-    #[arg(long, value_name = "SECONDS", value_parser = input::not_negative)]
+    #[arg(long, value_name = "SECONDS", value_parser = not_negative)]
     deadline: Option<f64>,
     /// Least radius, in your length unit
-    #[arg(long, value_name = "LENGTH", value_parser = input::not_negative)]
+    #[arg(long, value_name = "LENGTH", value_parser = not_negative)]
     min_radius: Option<f64>,
     /// Least distance between centres, in cells
-    #[arg(long, value_name = "CELLS", default_value_t = 0.0, value_parser = input::not_negative)]
+    #[arg(long, value_name = "CELLS", default_value_t = 0.0, value_parser = not_negative)]
     min_distance: f64,
     /// Added to every radius, in cells
-    #[arg(long, value_name = "CELLS", default_value_t = 0.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "CELLS", default_value_t = 0.0, value_parser = finite)]
     radius_offset: f64,
     /// Let no sphere reach beyond the true surface
     #[arg(long)]
@@ -122,6 +122,16 @@ pub enum Frame {
     Body,
 }
 
+impl Frame {
+    /// Its name in a JSON clump.
+    pub fn name(self) -> &'static str {
+        match self {
+            Frame::Input => "input",
+            Frame::Body => "body",
+        }
+    }
+}
+
 pub fn run(args: &Args) -> Done {
     let start = Instant::now();
     let output = match (args.output.as_deref(), args.json) {
@@ -129,9 +139,20 @@ pub fn run(args: &Args) -> Done {
             return Err(Fail::Usage("--json and -o - both want stdout".into()));
         }
         (Some(path), _) => Some(path),
-        (None, true) => None,
+        (None, true) => match args.format {
+            None | Some(ClumpFormat::Json) => None,
+            Some(_) => {
+                return Err(Fail::Usage(
+                    "--format is of a file, but --json prints on stdout: name a file with -o"
+                        .into(),
+                ));
+            }
+        },
         (None, false) => Some("-"),
     };
+    if let Some(path) = output.filter(|path| *path != "-") {
+        input::keep(&[&args.input], path)?;
+    }
     let options = args.generate_options();
     // The library would take the progress bar for one who can cancel.
     if options.spheres == 0
@@ -144,15 +165,16 @@ pub fn run(args: &Args) -> Done {
         ));
     }
     let bar = Bar::new("clump", args.quiet);
-    let mut run = Run::new(args.threads).about("")?.with_seed(args.seed);
+    let mut run = Run::new(args.threads).about("")?.with_seed(args.reading.seed.unwrap_or(0));
     if let Some(seconds) = args.making.deadline {
         run = run.with_deadline(seconds);
     }
     let run = bar.attach(run);
     let shape = args.reading.shape(&args.input, &run)?;
-    let solid = args.fineness.solid(&shape, &args.reading, &run).about(&args.input)?;
+    let solid = args.fineness.solid(&shape, &args.input, &args.reading, &run)?;
     let clump = generate(&solid, &options, &run).about(&args.input)?;
     drop(bar);
+    input::warn(&shape, args.quiet);
 
     let spheres = match args.frame {
         Frame::Input => clump.spheres.clone(),
@@ -250,7 +272,7 @@ fn figures(args: &Args, shape: &Shape, solid: &Solid, clump: &Clump, start: Inst
         "volume": moments.volume,
         "equivalent_diameter": equivalent_diameter(moments.volume),
         "cells": solid.grid().dims,
-        "frame": match args.frame { Frame::Input => "input", Frame::Body => "body" },
+        "frame": args.frame.name(),
         "position": moments.centroid.as_slice(),
         "quaternion": principal.quaternion,
         "stages": {
@@ -289,7 +311,7 @@ pub fn equivalent_diameter(volume: f64) -> f64 {
 /// What a person wants to know after a clump was written.
 fn summary(out: &mut dyn Write, path: &str, figures: &Value) -> std::io::Result<()> {
     let number = |key: &str| figures.get(key).and_then(Value::as_f64);
-    write!(out, "{path}: {} spheres", figures["n"])?;
+    write!(out, "{path}: {}", count(figures["n"].as_u64().unwrap_or(0), "sphere"))?;
     if let Some(d) = number("D") {
         write!(out, ", D {d:.4}")?;
     }

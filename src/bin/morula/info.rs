@@ -2,10 +2,12 @@
 
 use crate::clump::equivalent_diameter;
 use crate::fail::{About, Done};
-use crate::input::Reading;
+use crate::input::parse::{positive, whole};
+use crate::input::{self, Reading};
 use crate::labels;
 use crate::progress::Bar;
 use crate::write;
+use morula::error::{count, figure};
 use morula::math::{Inertia, Moments, PrincipalFrame};
 use morula::shape::Report;
 use morula::{Run, solid};
@@ -23,10 +25,10 @@ pub struct Args {
     #[arg(long)]
     labels: bool,
     /// Density, mass per cubed length unit [default: 1]
-    #[arg(long, default_value_t = 1.0, value_parser = crate::input::positive)]
-    density: f64,
+    #[arg(long, value_parser = positive, conflicts_with = "labels")]
+    density: Option<f64>,
     /// Threads; 0: all cores
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = whole::<usize>)]
     threads: usize,
     /// No progress bar
     #[arg(short, long)]
@@ -36,6 +38,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Done {
+    args.reading.seed_is_of_stone(&args.input)?;
     if args.labels {
         return labels::run(&args.input, &args.reading, args.json);
     }
@@ -44,6 +47,7 @@ pub fn run(args: &Args) -> Done {
     let shape = args.reading.shape(&args.input, &run)?;
     let unit = solid::moments::moments(&shape.body, &run).about(&args.input)?;
     drop(bar);
+    input::warn(&shape, args.quiet);
     let moments = shape.frame.moments_to_input(&unit);
     // In the unit frame, as for a solid: the axes do not depend on the caller's unit.
     let mut principal = PrincipalFrame::of_rounded(&unit.inertia, shape.frame.noise());
@@ -57,8 +61,14 @@ pub fn run(args: &Args) -> Done {
     })
 }
 
+impl Args {
+    fn density(&self) -> f64 {
+        self.density.unwrap_or(1.0)
+    }
+}
+
 fn object(args: &Args, r: &Report, m: &Moments, p: &PrincipalFrame) -> Value {
-    let rho = args.density;
+    let rho = args.density();
     let axis = |i: usize| json!(p.axes.column(i).as_slice());
     json!({
         "input": args.input,
@@ -99,13 +109,15 @@ fn text(
     m: &Moments,
     p: &PrincipalFrame,
 ) -> std::io::Result<()> {
+    let density = args.density();
     writeln!(out, "{}", args.input)?;
     if r.solid_cells > 0 {
-        writeln!(out, "  voxels            {} solid cells", r.solid_cells)?;
+        writeln!(out, "  voxels            {}", count(r.solid_cells, "solid cell"))?;
     } else {
-        writeln!(out, "  mesh              {} vertices, {} faces", r.vertices, r.faces)?;
+        let (vertices, faces) = (count(r.vertices, "vertex"), count(r.faces, "face"));
+        writeln!(out, "  mesh              {vertices}, {faces}")?;
     }
-    writeln!(out, "  bodies            {} ({} components)", r.bodies, r.components)?;
+    writeln!(out, "  bodies            {} ({})", r.bodies, count(r.components, "component"))?;
     for (what, count) in [
         ("bodies dropped", r.bodies_dropped),
         ("vertices welded", r.welded_vertices),
@@ -124,7 +136,9 @@ fn text(
         writeln!(out, "  watertight        {}", yes(r.watertight))?;
         writeln!(out, "  oriented          {}", yes(r.oriented))?;
     }
-    let numbers = |v: &[f64]| v.iter().map(|x| format!("{x:.6e}")).collect::<Vec<_>>().join(" ");
+    // No -0.
+    let number = |x: &f64| format!("{:.6e}", x + 0.0);
+    let numbers = |v: &[f64]| v.iter().map(number).collect::<Vec<_>>().join(" ");
     writeln!(out, "  box               {}", numbers(&r.box_min))?;
     writeln!(out, "                    {}", numbers(&r.box_max))?;
     writeln!(out, "  area              {:.6e}", r.area)?;
@@ -133,16 +147,11 @@ fn text(
         writeln!(out, "  within            {:.1e} (relative)", m.relative_error)?;
     }
     writeln!(out, "  d_eq              {:.6e}", equivalent_diameter(m.volume))?;
-    writeln!(
-        out,
-        "  mass              {:.6e} at density {}",
-        args.density * m.volume,
-        args.density
-    )?;
+    writeln!(out, "  mass              {:.6e} at density {}", density * m.volume, figure(density))?;
     writeln!(out, "  centre            {}", numbers(m.centroid.as_slice()))?;
-    writeln!(out, "  inertia xx yy zz  {}", numbers(&scaled(&m.inertia, args.density)[..3]))?;
-    writeln!(out, "  inertia xy xz yz  {}", numbers(&scaled(&m.inertia, args.density)[3..]))?;
-    writeln!(out, "  principal         {}", numbers(&p.moments.map(|i| args.density * i)))?;
+    writeln!(out, "  inertia xx yy zz  {}", numbers(&scaled(&m.inertia, density)[..3]))?;
+    writeln!(out, "  inertia xy xz yz  {}", numbers(&scaled(&m.inertia, density)[3..]))?;
+    writeln!(out, "  principal         {}", numbers(&p.moments.map(|i| density * i)))?;
     for (i, name) in ["axis 1", "axis 2", "axis 3"].iter().enumerate() {
         writeln!(out, "  {name}            {}", numbers(p.axes.column(i).as_slice()))?;
     }

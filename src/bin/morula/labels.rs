@@ -1,21 +1,24 @@
 //! `morula info --labels`: the labels that a volume holds.
 
-use crate::fail::{About, Done};
-use crate::input::Reading;
+use crate::fail::{About, Done, Fail};
+use crate::input::{self, Reading};
 use crate::write;
 use morula::Run;
 use morula::shape::read::file_labels;
 use morula::shape::voxels::LabelInfo;
 use serde_json::{Value, json};
-use std::path::Path;
 
-pub fn run(input: &str, reading: &Reading, as_json: bool) -> Done {
-    let labels = file_labels(Path::new(input), &reading.file_options()?, &Run::serial());
-    let labels = labels.about(input)?;
+pub fn run(path: &str, reading: &Reading, as_json: bool) -> Done {
+    if path.starts_with("sample:") {
+        return Err(Fail::Usage(format!("{path} is a built-in particle: it has no labels")));
+    }
+    reading.no_meaning()?;
+    let labels = file_labels(input::file(path)?, &reading.file_options()?, &Run::serial());
+    let labels = labels.about(path)?;
     write::to_stdout(|out| {
         if as_json {
             let list: Vec<Value> = labels.iter().map(object).collect();
-            return writeln!(out, "{}", json!({ "input": input, "labels": list }));
+            return writeln!(out, "{}", json!({ "input": path, "labels": list }));
         }
         writeln!(out, "{:>10} {:>12}  {:<24} border", "label", "cells", "box")?;
         for l in &labels {

@@ -14,7 +14,7 @@ mod sample;
 mod view;
 mod write;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use fail::Fail;
 use std::io::Write;
 use std::process::ExitCode;
@@ -40,7 +40,15 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    // Options take negative numbers, so that it is their range that is said to be missed.
+    let command = Cli::command().mut_subcommands(|sub| {
+        sub.mut_args(|a| {
+            let takes = a.get_action().takes_values() && !a.is_positional();
+            a.allow_negative_numbers(takes)
+        })
+    });
+    let parsed = command.try_get_matches().and_then(|m| Cli::from_arg_matches(&m));
+    let cli = match parsed {
         Ok(cli) => cli,
         Err(e) => return parsing_stopped(&e),
     };

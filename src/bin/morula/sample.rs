@@ -1,7 +1,9 @@
 //! `morula sample`: the built-in analytic particles as meshes.
 
 use crate::fail::{About, Done, Fail};
+use crate::input::parse::whole;
 use crate::{input, write};
+use morula::error::count;
 use morula::shape::Primitive;
 
 #[derive(clap::Args)]
@@ -16,7 +18,7 @@ pub struct Args {
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=1 << 53))]
     seed: Option<u64>,
     /// Edges around the body
-    #[arg(long, default_value_t = 64)]
+    #[arg(long, default_value_t = 64, value_parser = whole::<usize>)]
     segments: usize,
     /// File to write: .stl, .ply, .off or .obj
     #[arg(short, long, value_name = "FILE", required_unless_present = "list")]
@@ -36,6 +38,7 @@ pub fn run(args: &Args) -> Done {
     let (Some(name), Some(output)) = (&args.name, &args.output) else {
         return Err(Fail::Usage("a particle and a file are needed".into()));
     };
+    input::keep(&[], output)?;
     let mut particle = Primitive::from_name(name).about("")?;
     for pair in &args.set {
         input::set(&mut particle, pair)?;
@@ -50,7 +53,8 @@ pub fn run(args: &Args) -> Done {
         return Ok(());
     }
     write::to_terminal(|out| {
-        write!(out, "{output}: {name}, {} vertices, {} faces", vertices.len(), faces.len())?;
+        let (vertices, faces) = (vertices.len() as u64, faces.len() as u64);
+        write!(out, "{output}: {name}, {}, {}", count(vertices, "vertex"), count(faces, "face"))?;
         for (key, value) in particle.parameters() {
             write!(out, ", {key} {value:?}")?;
         }

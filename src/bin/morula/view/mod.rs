@@ -13,8 +13,9 @@ mod shade;
 mod surface;
 
 use crate::clump::{Frame, equivalent_diameter};
-use crate::fail::{About, Done};
-use crate::input::{Fineness, Reading};
+use crate::fail::{About, Done, Fail};
+use crate::input::parse::{positive, whole};
+use crate::input::{self, Fineness, Reading};
 use crate::progress::Bar;
 use crate::write;
 use buffer::Buffer;
@@ -34,7 +35,7 @@ pub struct Args {
     input: String,
     /// The clump: CSV or JSON as written by `morula clump`
     clump: String,
-    /// Picture to write
+    /// Picture to write, a PNG; - is stdout
     #[arg(short, long, value_name = "FILE.png")]
     output: String,
     /// Turn of the viewer about z, degrees
@@ -47,13 +48,13 @@ pub struct Args {
     #[arg(long, value_name = "WxH", default_value = "1500x600", value_parser = size)]
     size: (usize, usize),
     /// End of the colour scale, in percent of the equivalent diameter [default: what fits]
-    #[arg(long, value_name = "PERCENT", value_parser = crate::input::positive)]
+    #[arg(long, value_name = "PERCENT", value_parser = positive)]
     scale: Option<f64>,
-    /// Frame that the clump's spheres are given in
-    #[arg(long, value_enum, default_value_t = Frame::Input)]
-    frame: Frame,
+    /// Frame that the clump's spheres are given in [default: what a JSON clump says, else input]
+    #[arg(long, value_enum)]
+    frame: Option<Frame>,
     /// Threads; 0: all cores
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, value_parser = whole::<usize>)]
     threads: usize,
     /// No progress bar
     #[arg(short, long)]
@@ -65,12 +66,30 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Done {
+    if args.output != "-" {
+        input::keep(&[&args.input, &args.clump], &args.output)?;
+    }
+    let extension = Path::new(&args.output).extension();
+    if extension.is_some_and(|e| !e.eq_ignore_ascii_case("png")) {
+        return Err(Fail::Usage(format!("{} is no name for a PNG picture", args.output)));
+    }
+    args.reading.seed_is_of_stone(&args.input)?;
     let bar = Bar::new("view", args.quiet);
     let run = bar.attach(Run::new(args.threads).about("")?);
-    let mut spheres = read::spheres(Path::new(&args.clump)).about(&args.clump)?;
+    let (mut spheres, said) = read::clump(input::file(&args.clump)?).about(&args.clump)?;
+    let frame = match (args.frame, said) {
+        (Some(flag), Some(said)) if flag != said => {
+            return Err(Fail::Usage(format!(
+                "{} says that its spheres are in the frame {}, --frame says otherwise",
+                args.clump,
+                said.name()
+            )));
+        }
+        (flag, said) => flag.or(said).unwrap_or(Frame::Input),
+    };
     let shape = args.reading.shape(&args.input, &run)?;
-    let solid = args.fineness.solid(&shape, &args.reading, &run).about(&args.input)?;
-    if args.frame == Frame::Body {
+    let solid = args.fineness.solid(&shape, &args.input, &args.reading, &run)?;
+    if frame == Frame::Body {
         let (frame, axes) = (solid.frame(), solid.principal().axes);
         for s in &mut spheres {
             let unit = axes * s.center / frame.scale + solid.unit_moments().centroid;
@@ -81,6 +100,7 @@ pub fn run(args: &Args) -> Done {
         quality(&solid, &spheres, &QualityOptions::default(), &run).about(&args.clump)?;
     let canvas = picture(args, &solid, &spheres, &measured, &run).about(&args.output)?;
     drop(bar);
+    input::warn(&shape, args.quiet);
     write::to(&args.output, |out| canvas.write_png(out))
 }
 
