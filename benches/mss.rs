@@ -1,5 +1,5 @@
 //! What MSS costs on the two benchmarks of its paper, in CPU time on one thread and in bytes a
-//! voxel, beside the reference implementation (the PyPI package `multisphere`) on the same
+//! voxel (of the large arrays) and of the whole process at its peak, beside the reference implementation (the PyPI package `multisphere`) on the same
 //! voxels in the same run, when `MORULA_PEER_PYTHON` names a Python that has it. The
 //! femur needs `MORULA_DATA`, and is then the peer's own grid, on which the paper's
 //! figures stand; without the peer it is ours.
@@ -114,11 +114,11 @@ with contextlib.redirect_stdout(io.StringIO()):
     start = cpu()
     mss.multisphere_from_voxels(grid, min_center_distance_vox=4, max_spheres=int(sys.argv[2]))
     seconds = cpu() - start
-print(seconds)
+print(seconds, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 ";
 
-/// Seconds of the peer on the same voxels; `None` when it is not installed.
-fn peer(v: &Voxels) -> Option<f64> {
+/// Seconds and peak memory in KiB of the peer on the same voxels; `None` when it is not installed.
+fn peer(v: &Voxels) -> Option<(f64, f64)> {
     let python = std::env::var("MORULA_PEER_PYTHON").ok()?;
     let path = std::env::temp_dir().join(format!("morula-{}-{}.npy", v.name, std::process::id()));
     let [x, y, z] = v.dims;
@@ -140,22 +140,38 @@ fn peer(v: &Voxels) -> Option<f64> {
         .output()
         .ok();
     std::fs::remove_file(&path).unwrap();
-    String::from_utf8(out?.stdout).ok()?.trim().parse().ok()
+    let text = String::from_utf8(out?.stdout).ok()?;
+    let mut numbers = text.split_whitespace().map_while(|n| n.parse().ok());
+    Some((numbers.next()?, numbers.next()?))
+}
+
+/// Most memory that this process has had at one time, in KiB (Linux).
+fn peak() -> f64 {
+    let text = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = text.lines().find_map(|l| l.strip_prefix("VmHWM:")).unwrap();
+    line.trim_end_matches("kB").trim().parse().unwrap()
 }
 
 fn main() {
     println!(
-        "{:<10} {:>15} {:>4} {:>9} {:>9} {:>7} {:>13}",
-        "shape", "voxels", "n", "ours s", "peer s", "ratio", "bytes/voxel"
+        "{:<10} {:>15} {:>4} {:>9} {:>9} {:>7} {:>13} {:>9} {:>9}",
+        "shape", "voxels", "n", "ours s", "peer s", "ratio", "bytes/voxel", "ours MiB", "peer MiB"
     );
     for v in std::iter::once(ellipsoid()).chain(femur()) {
         let (seconds, bytes) = ours(&v);
         let dims = v.dims.map(|n| n.to_string()).join("x");
-        print!("{:<10} {dims:>15} {:>4} {seconds:>9.3} ", v.name, v.spheres);
-        match peer(&v) {
-            Some(p) => println!("{p:>9.3} {:>7.1} {bytes:>13.1}", p / seconds),
-            None => println!("{:>9} {:>7} {bytes:>13.1}", "-", "-"),
-        }
+        let (of_peer, ratio, memory) = match peer(&v) {
+            Some((s, kib)) => {
+                (format!("{s:.3}"), format!("{:.1}", s / seconds), format!("{:.0}", kib / 1024.0))
+            }
+            None => ("-".into(), "-".into(), "-".into()),
+        };
+        println!(
+            "{:<10} {dims:>15} {:>4} {seconds:>9.3} {of_peer:>9} {ratio:>7} {bytes:>13.1} {:>9.0} {memory:>9}",
+            v.name,
+            v.spheres,
+            peak() / 1024.0
+        );
     }
     if std::env::var("MORULA_PEER_PYTHON").is_err() {
         println!("the peer is not installed: MORULA_PEER_PYTHON is not set");
