@@ -713,7 +713,8 @@ module morula
     generic :: create_from_grey => shape_from_grey_u8, shape_from_grey_u16, shape_from_grey_f32
     !> From one label of labels(nx, ny, nz).
     procedure :: create_from_label => shape_from_label
-    !> A built-in analytic particle, with keys(:) and values(:) of its parameters.
+    !> A built-in analytic particle, with keys(:) and values(:) of its parameters. The particles
+    !> and what their parameters mean: the table at morula_shape_from_primitive() in morula.h.
     procedure :: create_from_primitive => shape_from_primitive
     procedure :: report => shape_report
     procedure :: note_count => shape_note_count

@@ -223,7 +223,8 @@ class Shape {
                                      layout.origin.data(), label, &o, out);
     });
   }
-  /// A built-in analytic particle; `parameters` as {"radius", 2.0}.
+  /// A built-in analytic particle; `parameters` as {"radius", 2.0}. The particles and what their
+  /// parameters mean: the table at morula_shape_from_primitive() in morula.h.
   static Shape from_primitive(const std::string &name,
                               const std::vector<std::pair<std::string, double>> &parameters = {},
                               std::uint32_t segments = 0, std::uint64_t seed = 0,

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use morula::error::Error;
-use morula::shape::{ImportOptions, Primitive};
+use morula::shape::{ImportOptions, Parameter, Primitive};
 use morula::{Run, Shape};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -299,7 +299,8 @@ fn parameters_are_named_set_and_checked() {
     for name in Primitive::NAMES {
         let mut p = Primitive::from_name(name).unwrap();
         assert_eq!(p.name(), name);
-        for (key, value) in p.parameters() {
+        for Parameter { key, value, meaning } in p.parameters() {
+            assert!(!meaning.is_empty());
             let before = p;
             p.set(key, value).unwrap();
             assert_eq!(p, before);
@@ -309,7 +310,7 @@ fn parameters_are_named_set_and_checked() {
             ));
             assert!(matches!(p.set(key, -1.0), Err(Error::InvalidArgument(t)) if t.contains(key)));
             p.set(key, 1.0).unwrap();
-            assert_eq!(p.parameters().iter().find(|q| q.0 == key).unwrap().1, 1.0);
+            assert_eq!(p.parameters().iter().find(|q| q.key == key).unwrap().value, 1.0);
             p = before;
         }
         let e = p.set("colour", 1.0).unwrap_err();
@@ -325,7 +326,8 @@ fn parameters_are_named_set_and_checked() {
     assert!(stone.set("seed", 1.5).is_err());
     assert!(stone.set("seed", 1e17).is_err());
     stone.set("seed", 12.0).unwrap();
-    assert_eq!(stone.parameters()[0], ("seed", 12.0));
+    let seed = stone.parameters()[0];
+    assert_eq!((seed.key, seed.value), ("seed", 12.0));
     for bad in [
         Primitive::Torus { major: 1.0, minor: 1.0 },
         Primitive::Tablet { band_radius: 1.0, band_height: 1.0, cap_height: 1.1 },

@@ -65,7 +65,7 @@ pub unsafe extern "C" fn morula_primitive_copy_parameter(
 ) -> i32 {
     guard(|| {
         let all = Primitive::from_name(unsafe { text(name, "name")? })?.parameters();
-        let (text, default) = all.get(index).ok_or_else(|| {
+        let parameter = all.get(index).ok_or_else(|| {
             Error::IndexOutOfRange(format!(
                 "parameter {index} does not exist, there are {}",
                 all.len()
@@ -76,23 +76,56 @@ pub unsafe extern "C" fn morula_primitive_copy_parameter(
         }
         // Nothing of the key may be asked for.
         if capacity > 0 || !key.is_null() || !length.is_null() {
-            unsafe { copy_text(text, capacity, key, length)? };
+            unsafe { copy_text(parameter.key, capacity, key, length)? };
         }
         if !value.is_null() {
-            unsafe { put(value, *default, "value")? };
+            unsafe { put(value, parameter.value, "value")? };
         }
         Ok(())
     })
 }
 
 /// Makes a shape of a built-in analytic particle, centred on the origin, its
-/// axis of revolution along z.
+/// axis of revolution along z. Their names, parameters and defaults (lengths in
+/// the caller's unit; a tablet and an M&M of millimetres):
+///
+///   sphere          radius = 1.0            radius
+///   ellipsoid       a = 1.0                 semi-axis along x
+///                   b = 0.75                semi-axis along y
+///                   c = 0.5                 semi-axis along z
+///   superellipsoid  a = 1.0                 semi-axis along x
+///                   b = 0.75                semi-axis along y
+///                   c = 0.5                 semi-axis along z
+///                   e1 = 0.5                exponent along z, 0.1 to 2.5; 1 is round, less boxier
+///                   e2 = 0.5                exponent in the xy plane, likewise
+///   box             a = 1.0                 edge along x
+///                   b = 1.0                 edge along y
+///                   c = 1.0                 edge along z
+///   cylinder        radius = 0.5            radius
+///                   height = 1.0            height along z
+///   capsule         radius = 0.5            radius, also of the caps
+///                   height = 1.0            height along z of the cylinder, without the caps
+///   torus           major = 1.0             radius of the centre line, about z
+///                   minor = 0.4             radius of the tube, less than major
+///   cone            radius = 1.0            radius of the base, which is below
+///                   height = 2.0            height along z; the centroid is at the origin
+///   tablet          band_radius = 5.675     radius of the band
+///                   band_height = 4.0       height of the band along z
+///                   cap_height = 1.23       height of each cap, at most band_radius
+///   mandm           radius = 6.7            equatorial radius
+///                   flatness = 6.93/13.4    short axis (along z) over the long one, at most 1
+///   stone           seed = 1.0              which stone, a whole number from 0 to 2^53
+///                   diameter = 1.0          diameter of the sphere of equal volume
+///                   roughness = 0.5         size of the facets and roughness, 0 to 1
+///
+/// A superellipsoid is the body (|x/a|^(2/e2) + |y/b|^(2/e2))^(e2/e1) + |z/c|^(2/e1) <= 1.
 ///
 /// Parameters: `name` is one of morula_primitive_name(); `keys` and `values`
-/// set `count` of its parameters (each key as morula_primitive_copy_parameter()
-/// gives it; NULL with a count of 0 keeps the defaults); `segments` is about
-/// the number of edges around the body (0: 64); `seed` tells stones apart and
-/// is not read by the others; `options` may be NULL for the defaults.
+/// set `count` of its parameters (the keys of the table, which
+/// morula_primitive_copy_parameter() gives as well; NULL with a count of 0 keeps
+/// the defaults); `segments` is about the number of edges around the body (0:
+/// 64); `seed` is that of a stone unless a key sets it, and is not read by the
+/// others; `options` may be NULL for the defaults.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; UNSUPPORTED (no such name);
 /// INVALID_ARGUMENT (a key, a value or an option); STRUCT_SIZE; NOT_FINITE;
 /// TOO_LARGE; MEMORY_LIMIT; OUT_OF_MEMORY; CANCELLED; INTERNAL.
@@ -143,5 +176,20 @@ mod tests {
             assert_eq!(ours.to_str(), Ok(theirs));
         }
         assert!(morula_primitive_name(NAMES.len()).is_null());
+    }
+
+    #[test]
+    fn the_table_of_the_comment_is_the_librarys() {
+        let mut table = String::new();
+        for name in Primitive::NAMES {
+            let mut first = name;
+            for p in Primitive::from_name(name).unwrap().parameters() {
+                let value = format!("{:?}", p.value).replace("0.5171641791044775", "6.93/13.4");
+                let set = format!("{} = {value}", p.key);
+                table += &format!("///   {first:<16}{set:<24}{}\n", p.meaning);
+                first = "";
+            }
+        }
+        assert!(include_str!("primitive.rs").contains(&table), "it should be\n{table}");
     }
 }

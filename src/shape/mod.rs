@@ -11,7 +11,7 @@ pub(crate) mod samples;
 pub mod voxels;
 
 pub use mesh::Mesh;
-pub use primitive::Primitive;
+pub use primitive::{Parameter, Primitive};
 pub use report::Report;
 pub use voxels::{Layout, Voxels};
 

@@ -1,6 +1,7 @@
 //! `morula info` and `morula sample`.
 
 use super::*;
+use morula::shape::Primitive;
 
 #[test]
 fn info_tells_report_and_moments() {
@@ -140,6 +141,11 @@ fn samples_read_back_in_every_format() {
     let list = succeeds(&["sample", "--list"]);
     for name in ["tablet", "mandm", "stone", "ellipsoid"] {
         assert!(list.lines().any(|l| l.starts_with(name)), "{list}");
+    }
+    for p in Primitive::from_name("capsule").unwrap().parameters() {
+        let of =
+            |l: &str| l.contains(&format!(" {}={:?} ", p.key, p.value)) && l.ends_with(p.meaning);
+        assert!(list.lines().any(of), "{list}");
     }
     let mut volumes = Vec::new();
     for file in ["t.stl", "t.ply", "t.off", "t.obj"] {

@@ -55,8 +55,8 @@ pub fn run(args: &Args) -> Done {
     write::to_terminal(|out| {
         let (vertices, faces) = (vertices.len() as u64, faces.len() as u64);
         write!(out, "{output}: {name}, {}, {}", count(vertices, "vertex"), count(faces, "face"))?;
-        for (key, value) in particle.parameters() {
-            write!(out, ", {key} {value:?}")?;
+        for p in particle.parameters() {
+            write!(out, ", {} {:?}", p.key, p.value)?;
         }
         if let Some(m) = particle.moments() {
             write!(out, "; volume of the ideal body {:?}", m.volume)?;
@@ -68,13 +68,13 @@ pub fn run(args: &Args) -> Done {
 fn list() -> Done {
     write::to_stdout(|out| {
         for name in Primitive::NAMES {
-            write!(out, "{name}")?;
+            writeln!(out, "{name}")?;
             if let Ok(particle) = Primitive::from_name(name) {
-                for (key, value) in particle.parameters() {
-                    write!(out, " {key}={value:?}")?;
+                for p in particle.parameters() {
+                    let set = format!("{}={:?}", p.key, p.value);
+                    writeln!(out, "  {set:<24}{}", p.meaning)?;
                 }
             }
-            writeln!(out)?;
         }
         Ok(())
     })

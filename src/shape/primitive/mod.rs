@@ -1,6 +1,7 @@
 //! Analytic particles: the built-in demo and test shapes.
 
 mod moments;
+mod parameters;
 mod stone;
 mod tessellate;
 
@@ -8,6 +9,7 @@ use super::{ImportOptions, Shape};
 use crate::error::{Error, Result, figure};
 use crate::math::Moments;
 use crate::run::Run;
+pub use parameters::Parameter;
 
 /// An analytic particle, centred on the origin, axis of revolution along z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -151,92 +153,11 @@ impl Primitive {
         }
     }
 
-    /// The names and values of the parameters, in order (a vector gives `a`, `b`, `c`;
-    /// the exponents are `e1`, `e2`).
-    pub fn parameters(&self) -> Vec<(&'static str, f64)> {
-        let mut copy = *self;
-        let seed = if let Primitive::Stone { seed, .. } = self { Some(*seed as f64) } else { None };
-        seed.map(|s| ("seed", s))
-            .into_iter()
-            .chain(copy.slots().into_iter().map(|(key, _, slot)| (key, *slot)))
-            .collect()
-    }
-
-    /// Sets one parameter by name. A value out of its own range is refused here,
-    /// one that does not fit the others by [`Primitive::mesh`].
-    pub fn set(&mut self, key: &str, value: f64) -> Result<()> {
-        let name = self.name();
-        if let Primitive::Stone { seed, .. } = self
-            && key == "seed"
-        {
-            // Whole numbers that f64 counts without gaps.
-            if !(value.is_finite() && (0.0..=9_007_199_254_740_992.0).contains(&value))
-                || value.fract() != 0.0
-            {
-                return Err(Error::InvalidArgument(format!(
-                    "seed of the stone is {}, not a whole number from 0 to 2^53",
-                    figure(value)
-                )));
-            }
-            *seed = value as u64;
-            return Ok(());
-        }
-        for (known, range, slot) in self.slots() {
-            if known == key {
-                range.check(name, key, value)?;
-                *slot = value;
-                return Ok(());
-            }
-        }
-        let known: Vec<_> = self.parameters().iter().map(|p| p.0).collect();
-        Err(Error::InvalidArgument(format!(
-            "the {name} has no parameter {key:?}; it has {}",
-            known.join(", ")
-        )))
-    }
-
-    /// The real-valued parameters with their ranges.
-    fn slots(&mut self) -> Vec<(&'static str, Range, &mut f64)> {
-        use Range::{Exponent, Fraction, Length, Ratio};
-        match self {
-            Primitive::Sphere { radius } => vec![("radius", Length, radius)],
-            Primitive::Ellipsoid { axes: [a, b, c] } | Primitive::Box { edges: [a, b, c] } => {
-                vec![("a", Length, a), ("b", Length, b), ("c", Length, c)]
-            }
-            Primitive::Superellipsoid { axes: [a, b, c], exponents: [e1, e2] } => vec![
-                ("a", Length, a),
-                ("b", Length, b),
-                ("c", Length, c),
-                ("e1", Exponent, e1),
-                ("e2", Exponent, e2),
-            ],
-            Primitive::Cylinder { radius, height }
-            | Primitive::Capsule { radius, height }
-            | Primitive::Cone { radius, height } => {
-                vec![("radius", Length, radius), ("height", Length, height)]
-            }
-            Primitive::Torus { major, minor } => {
-                vec![("major", Length, major), ("minor", Length, minor)]
-            }
-            Primitive::Tablet { band_radius, band_height, cap_height } => vec![
-                ("band_radius", Length, band_radius),
-                ("band_height", Length, band_height),
-                ("cap_height", Length, cap_height),
-            ],
-            Primitive::Mandm { radius, flatness } => {
-                vec![("radius", Length, radius), ("flatness", Ratio, flatness)]
-            }
-            Primitive::Stone { diameter, roughness, .. } => {
-                vec![("diameter", Length, diameter), ("roughness", Fraction, roughness)]
-            }
-        }
-    }
-
     /// Checks every parameter, and those that must fit each other.
     fn check(&self) -> Result<()> {
         let mut copy = *self;
-        for (key, range, slot) in copy.slots() {
-            range.check(self.name(), key, *slot)?;
+        for slot in copy.slots() {
+            slot.range.check(self.name(), slot.key, *slot.value)?;
         }
         match *self {
             Primitive::Torus { major, minor } if minor >= major => {
@@ -281,35 +202,6 @@ impl Primitive {
     pub fn moments(&self) -> Option<Moments> {
         self.check().ok()?;
         moments::of(self)
-    }
-}
-
-/// What a parameter may be.
-#[derive(Debug, Clone, Copy)]
-enum Range {
-    Length,
-    Exponent,
-    Ratio,
-    Fraction,
-}
-
-impl Range {
-    fn check(self, name: &str, key: &str, value: f64) -> Result<()> {
-        if !value.is_finite() {
-            return Err(Error::NotFinite(format!("{key} of the {name} is {value}")));
-        }
-        let (ok, range) = match self {
-            // The fifth power of a length (an inertia) must be a normal number.
-            Range::Length => ((1e-60..=1e60).contains(&value), "from 1e-60 to 1e60"),
-            Range::Exponent => ((0.1..=2.5).contains(&value), "from 0.1 to 2.5"),
-            Range::Ratio => ((1e-6..=1.0).contains(&value), "from 1e-6 to 1"),
-            Range::Fraction => ((0.0..=1.0).contains(&value), "from 0 to 1"),
-        };
-        if ok {
-            return Ok(());
-        }
-        let value = figure(value);
-        Err(Error::InvalidArgument(format!("{key} of the {name} is {value}, not {range}")))
     }
 }
 
