@@ -175,6 +175,11 @@ fn what_may_be_labels_is_said() {
     assert_eq!(told("|u1", &[0, 5, 5, 9, 0, 5], Meaning::Auto), 3);
     assert_eq!(told("|u1", &scan[..64], Meaning::Auto), 64);
     assert_eq!(told("<f4", &floats([0.0, 2.0, 2.0, 7.0]), Meaning::Auto), 3);
+    // Apart from each other they are refused, and the way out is named.
+    let file = npy("|u1", false, [1, 1, 5], &[5, 0, 9, 0, 5]);
+    let refused = read(&file, "", &FileOptions::default());
+    let Err(Error::SeveralBodies(text)) = refused else { panic!("{refused:?}") };
+    assert!(text.contains("one label, if its 3 different"), "{text}");
     // A scan; values that are no labels; masks; and what the caller has said.
     assert_eq!(told("|u1", &scan, Meaning::Auto), 0);
     assert_eq!(told("<f4", &floats([0.0, 2.5, 2.0, 7.0]), Meaning::Auto), 0);

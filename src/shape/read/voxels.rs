@@ -77,7 +77,13 @@ pub(super) fn shape(voxels: RawVoxels, options: &FileOptions, run: &Run) -> Resu
                 },
             }
         }
-    }?;
+    }
+    .map_err(|e| match e {
+        Error::SeveralBodies(text) if label_like > 0 => Error::SeveralBodies(format!(
+            "{text}, or one label, if its {label_like} different whole values are labels"
+        )),
+        e => e,
+    })?;
     shape.report.notes.splice(0..0, notes);
     if label_like > 0 {
         shape.report.label_like = label_like;
