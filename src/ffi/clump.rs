@@ -134,8 +134,8 @@ fn make(solid: &Solid, asked: &Asked, before: &Counters) -> Result<morula_clump>
     log(MORULA_LOG_INFO, || {
         let c = &inner.counters;
         format!(
-            "{} spheres in {:.1} ms, stopped by {}",
-            inner.spheres.len(),
+            "{} in {:.1} ms, stopped by {}",
+            crate::error::count(inner.spheres.len() as u64, "sphere"),
             1e3 * c.seconds.iter().sum::<f64>(),
             inner.stopped.name()
         )
