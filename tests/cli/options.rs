@@ -30,6 +30,8 @@ fn options_without_effect_are_refused() {
     }
     fails(&["info", mask, "--labels", "--label", "1"], 2);
     fails(&["info", mask, "--labels", "--density", "1"], 2);
+    fails(&["info", mask, "--raw", "4x4x4", "--axes", "xyz"], 2);
+    fails(&["clump", mesh, "--plane-tolerance", "0.1", "-o", "c.csv"], 2);
     let said = fails(&["info", "sample:box", "--labels"], 2);
     assert!(said.contains("built-in"), "{said}");
     let json = ["clump", "sample:box", "-n", "1", "--cells", "8", "--json", "--format"];

@@ -153,6 +153,12 @@ pub fn run(args: &Args) -> Done {
     if let Some(path) = output.filter(|path| *path != "-") {
         input::keep(&[&args.input], path)?;
     }
+    let told = args.json || output.is_some_and(|path| args.format_of(path) == ClumpFormat::Json);
+    if !args.plane_tolerance.is_empty() && !told {
+        return Err(Fail::Usage(
+            "--plane-tolerance has no effect here: only JSON holds the counts".into(),
+        ));
+    }
     let options = args.generate_options();
     // The library would take the progress bar for one who can cancel.
     if options.spheres == 0
@@ -182,8 +188,7 @@ pub fn run(args: &Args) -> Done {
     };
     let figures = figures(args, &shape, &solid, &clump, start);
     if let Some(path) = output {
-        let format = args.format.unwrap_or_else(|| ClumpFormat::of_name(path));
-        write::to(path, |out| write::clump(out, format, &spheres, &figures))?;
+        write::to(path, |out| write::clump(out, args.format_of(path), &spheres, &figures))?;
     }
     if args.json {
         let format = ClumpFormat::Json;
@@ -202,6 +207,11 @@ pub fn run(args: &Args) -> Done {
 }
 
 impl Args {
+    /// The format of the file at `path`.
+    fn format_of(&self, path: &str) -> ClumpFormat {
+        self.format.unwrap_or_else(|| ClumpFormat::of_name(path))
+    }
+
     /// Whether anything is measured: plane contacts are asked for by their tolerances.
     fn measures(&self) -> bool {
         self.quality != Wanted::None || !self.plane_tolerance.is_empty()

@@ -12,7 +12,7 @@ pub fn run(path: &str, reading: &Reading, as_json: bool) -> Done {
     if path.starts_with("sample:") {
         return Err(Fail::Usage(format!("{path} is a built-in particle: it has no labels")));
     }
-    reading.no_meaning()?;
+    reading.counts_only()?;
     let labels = file_labels(input::file(path)?, &reading.file_options()?, &Run::serial());
     let labels = labels.about(path)?;
     write::to_stdout(|out| {

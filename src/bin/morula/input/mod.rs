@@ -40,7 +40,7 @@ pub struct Reading {
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     origin: Option<[f64; 3]>,
     /// Order of the axes of a .npy array [default: zyx]
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, conflicts_with = "raw")]
     axes: Option<Axes>,
     /// Take the file for raw voxels, x fastest, whatever it looks like: dimensions, type (u8, u16,
     /// f32) and header bytes to skip
@@ -169,12 +169,17 @@ impl Reading {
         Ok(particle)
     }
 
-    /// For the list of labels, which takes all of them.
-    pub fn no_meaning(&self) -> Done {
-        match (&self.label, &self.threshold) {
-            (None, None) => Ok(()),
-            _ => Err(Fail::Usage("--labels lists all: it takes no --label or --threshold".into())),
-        }
+    /// For the list of labels, which counts cells and takes all of them.
+    pub fn counts_only(&self) -> Done {
+        let given = [
+            ("--label", self.label.is_some()),
+            ("--threshold", self.threshold.is_some()),
+            ("--spacing", self.spacing.is_some()),
+            ("--origin", self.origin.is_some()),
+            ("--weld", self.weld.is_some()),
+            ("--segments", self.segments.is_some()),
+        ];
+        refuse("--labels", "a list of cells by label", &given)
     }
 
     /// For commands that make no random choice.

@@ -13,7 +13,7 @@ use std::io::{BufWriter, IsTerminal, Write};
 use std::path::Path;
 
 /// A file format for clumps.
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub enum ClumpFormat {
     /// One sphere a line under the header x,y,z,r
     Csv,
