@@ -274,6 +274,25 @@ static void handles(void) {
   }
   CHECK(clump == NULL);
 
+  /* Spheres far larger than the shape: whatever cannot be measured of them, it is their fault. */
+  const double offsets[4] = {1e3, 1e9, 1e100, 1e300};
+  const uint32_t wants[3] = {MORULA_WANT_NOTHING, MORULA_WANT_OVERLAP, MORULA_WANT_SURFACE};
+  for (int i = 0; i < 12; i++) {
+    morula_clump_options huge;
+    OK(morula_clump_options_init(&huge, sizeof huge));
+    huge.spheres = 2;
+    huge.radius_offset = offsets[i / 3];
+    huge.wants = wants[i % 3];
+    /* The volume is refused where no column meets both, the surface where numbers end. */
+    const int bad = i % 3 == 1 ? i / 3 >= 1 : i % 3 == 2 && i / 3 == 3;
+    STATUS(morula_clump_from_solid(solid, &huge, &clump),
+           bad ? MORULA_STATUS_INVALID_ARGUMENT : MORULA_STATUS_OK);
+    CHECK(!bad || strncmp(morula_last_error_message(), "sphere 0 has radius ", 20) == 0);
+    CHECK(!bad == (clump != NULL));
+    morula_clump_free(clump);
+    clump = NULL;
+  }
+
   morula_clump_options o;
   OK(morula_clump_options_init(&o, sizeof o));
   o.spheres = 2;
