@@ -1,6 +1,7 @@
 //! The methods that turn a solid into a clump.
 
 pub mod best;
+pub mod cover;
 pub mod mss;
 
 use crate::clump::{Clump, Stopped};
