@@ -13,7 +13,8 @@ impl Ball {
     /// The way from this centre to that of `other`.
     #[inline(always)]
     pub(super) fn way(&self, other: &Ball) -> [f32; 3] {
-        [0, 1, 2].map(|a| other.center[a] - self.center[a])
+        let ([x, y, z], [u, v, w]) = (self.center, other.center);
+        [u - x, v - y, w - z]
     }
 
     /// Squared distance of the centres.

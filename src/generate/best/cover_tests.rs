@@ -29,7 +29,7 @@ fn the_mismatch_is_that_of_the_quality_figures() {
                 .map(|b| Ball { center: b.center.map(|x| 0.2 + 0.3 * x), radius: 0.5 * b.radius })
                 .collect();
             let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
-            let lengths = cover.whole(&dexels, &seen);
+            let lengths = cover.whole(&dexels, &seen, &mut Look::default());
             let frame = body.solid.frame();
             let spheres: Vec<_> =
                 balls.iter().map(|b| frame.sphere_to_input(&b.sphere())).collect();
@@ -51,15 +51,15 @@ fn changes_add_up_to_whole_sums() {
         let (mut cover, mut other) = (Cover::new(&dexels).unwrap(), Cover::new(&dexels).unwrap());
         let mut seen: Vec<Seen> = clump(25, 4).iter().map(|b| dexels.seen(b)).collect();
         let fresh: Vec<Seen> = clump(60, 5).iter().map(|b| dexels.seen(b)).collect();
-        let mut sum = cover.whole(&dexels, &seen);
-        let mut region = Region::default();
+        let mut look = Look::default();
+        let mut sum = cover.whole(&dexels, &seen, &mut look);
         for (k, new) in fresh.iter().enumerate() {
             let i = k % seen.len();
-            region.of(&dexels, [seen[i], *new].into_iter());
+            look.region.of(&dexels, [seen[i], *new].into_iter());
             seen[i] = *new;
-            sum = sum.plus(&cover.change(&dexels, &region, &seen));
-            cover.take(&dexels, &region);
-            let whole = other.whole(&dexels, &seen);
+            sum = sum.plus(&look.change(&cover, &dexels, &seen));
+            cover.take(&dexels, &look);
+            let whole = other.whole(&dexels, &seen, &mut Look::default());
             let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * dexels.target;
             assert!(close(sum.union, whole.union) && close(sum.both, whole.both));
         }
@@ -75,15 +75,15 @@ fn what_a_ball_covers_alone_is_lost_without_it() {
         let dexels = body.dexels(64);
         let mut cover = Cover::new(&dexels).unwrap();
         let seen: Vec<Seen> = clump(30, 8).iter().map(|b| dexels.seen(b)).collect();
-        let whole = cover.whole(&dexels, &seen);
-        let mut region = Region::default();
-        region.all(&dexels);
+        let mut look = Look::default();
+        let whole = cover.whole(&dexels, &seen, &mut look);
         let mut alone = vec![Lengths::default(); seen.len()];
-        cover.alone(&dexels, &region, &seen, 1.0, &mut alone);
+        look.alone(&dexels, &seen, 1.0, &mut alone);
         for (i, alone) in alone.iter().enumerate() {
             let mut rest = seen.clone();
             rest.remove(i);
-            let lost = whole.less(&cover.whole(&dexels, &rest));
+            let left = cover.whole(&dexels, &rest, &mut look);
+            let lost = Lengths { union: whole.union - left.union, both: whole.both - left.both };
             let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * dexels.target;
             assert!(close(lost.union, alone.union), "{i}: {lost:?} {:?}", alone);
             assert!(close(lost.both, alone.both), "{i}: {lost:?} {:?}", alone);
@@ -97,12 +97,13 @@ fn gaps_are_what_is_missing() {
         let dexels = body.dexels(64);
         let mut cover = Cover::new(&dexels).unwrap();
         let seen: Vec<Seen> = clump(20, 6).iter().map(|b| dexels.seen(b)).collect();
-        cover.whole(&dexels, &seen);
+        let mut look = Look::default();
+        cover.whole(&dexels, &seen, &mut look);
         let mut gaps = Vec::new();
         for b in 0..dexels.dims[1] {
             for a in 0..dexels.dims[0] {
                 let c = a + dexels.dims[0] * b;
-                cover.gaps(&dexels, [a, b], &seen, &mut gaps);
+                look.gaps(&dexels, [a, b], &seen, &mut gaps);
                 let sum: f32 = gaps.iter().map(|g| g[1] - g[0]).sum();
                 assert!((sum - cover.missing(&dexels, c)).abs() < 1e-3, "{a} {b}");
                 assert!(gaps.iter().all(|g| g[0] < g[1]));

@@ -37,9 +37,9 @@ impl Directions {
     /// The directions turned, into `out`.
     pub(super) fn turned(&self, rows: &[[f32; 3]; 3], out: &mut Vec<[f32x8; 3]>) {
         out.clear();
-        out.extend(self.groups.iter().map(|[x, y, z]| {
-            [0, 1, 2].map(|a| *x * rows[a][0] + *y * rows[a][1] + *z * rows[a][2])
-        }));
+        let [a, b, c] = rows;
+        let dot = |r: &[f32; 3], [x, y, z]: &[f32x8; 3]| *x * r[0] + *y * r[1] + *z * r[2];
+        out.extend(self.groups.iter().map(|d| [dot(a, d), dot(b, d), dot(c, d)]));
     }
 }
 

@@ -24,10 +24,7 @@ pub(super) struct Plan {
     pub iterations: usize,
     /// Columns along the longer edge.
     pub columns: usize,
-    /// Chains that search on their own, and how often they are compared.
-    pub chains: usize,
-    pub rounds: usize,
-    /// Moves of a chain, all rounds together.
+    /// Moves tried.
     pub moves: usize,
     /// Directions and iterations of the last refinement.
     pub polish: [usize; 2],
@@ -43,9 +40,7 @@ impl Effort {
                 candidates: wide(300, 5),
                 directions: 48,
                 iterations: 60,
-                columns: 96,
-                chains: 0,
-                rounds: 0,
+                columns: 48,
                 moves: 0,
                 polish: [0, 0],
             },
@@ -54,10 +49,8 @@ impl Effort {
                 candidates: wide(800, 6),
                 directions: 96,
                 iterations: 100,
-                columns: 96,
-                chains: 2,
-                rounds: 3,
-                moves: 150,
+                columns: 64,
+                moves: wide(160, 1),
                 polish: [192, 40],
             },
             Effort::Thorough => Plan {
@@ -65,10 +58,8 @@ impl Effort {
                 candidates: wide(1500, 6),
                 directions: 96,
                 iterations: 100,
-                columns: 128,
-                chains: 2,
-                rounds: 6,
-                moves: 3000,
+                columns: 96,
+                moves: wide(6000, 10),
                 polish: [384, 60],
             },
         }

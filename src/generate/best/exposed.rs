@@ -71,13 +71,14 @@ impl Sampler<'_> {
         self.sum(ball, open, exposed)
     }
 
-    /// The exposed directions, filled up to a multiple of eight; returns how many.
+    /// The exposed directions, and how many; what comes after them is of no meaning.
     fn exposed(&self, caps: &[Cap], open: &mut [Vec<f32>; 3]) -> usize {
         let [ox, oy, oz] = open;
         for v in [&mut *ox, &mut *oy, &mut *oz] {
             v.clear();
-            v.reserve(8 * self.directions.len() + 8);
+            v.resize(8 * self.directions.len() + 8, 0.0);
         }
+        let mut n = 0;
         for [x, y, z] in self.directions {
             let mut hidden = 0u32;
             for c in caps {
@@ -90,26 +91,21 @@ impl Sampler<'_> {
             if hidden == 0xff {
                 continue;
             }
-            let [x, y, z] = [x.to_array(), y.to_array(), z.to_array()];
+            let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
+            let (tx, ty, tz) = (&mut ox[n..n + 8], &mut oy[n..n + 8], &mut oz[n..n + 8]);
             if hidden == 0 {
-                ox.extend_from_slice(&x);
-                oy.extend_from_slice(&y);
-                oz.extend_from_slice(&z);
+                tx.copy_from_slice(&x);
+                ty.copy_from_slice(&y);
+                tz.copy_from_slice(&z);
+                n += 8;
                 continue;
             }
-            let mut bits = !hidden & 0xff;
-            while bits != 0 {
-                let l = bits.trailing_zeros() as usize & 7;
-                bits &= bits - 1;
-                ox.push(x[l]);
-                oy.push(y[l]);
-                oz.push(z[l]);
+            let mut k = 0;
+            for l in 0..8 {
+                (tx[k & 7], ty[k & 7], tz[k & 7]) = (x[l], y[l], z[l]);
+                k += (!hidden >> l & 1) as usize;
             }
-        }
-        let n = ox.len();
-        let whole = n.div_ceil(8) * 8;
-        for v in [ox, oy, oz] {
-            v.resize(whole, 0.0);
+            n += k;
         }
         n
     }
@@ -122,36 +118,41 @@ impl Sampler<'_> {
         let width = f32x8::splat(self.width);
         let (inside, outside) =
             (f32x8::splat(self.weights.inside), f32x8::splat(self.weights.outside));
+        let [cx, cy, cz] = ball.center;
         let radius = f32x8::splat(ball.radius);
-        let lanes = |v: &Vec<f32>, k: usize| {
-            let mut out = [0.0; 8];
-            if let Some(part) = v.get(k..k + 8) {
-                out.copy_from_slice(part);
-            }
-            f32x8::new(out)
-        };
-        for k in (0..open[0].len()).step_by(8) {
-            let d = [0, 1, 2].map(|a| lanes(&open[a], k));
-            let places = [0, 1, 2].map(|a| d[a] * radius + ball.center[a]);
-            let f = self.field.at(places);
+        let [ox, oy, oz] = open;
+        let groups = ox.chunks_exact(8).zip(oy.chunks_exact(8)).zip(oz.chunks_exact(8));
+        for (g, ((x, y), z)) in groups.take(exposed.div_ceil(8)).enumerate() {
+            let (x, y, z) = (f32x8::from(x), f32x8::from(y), f32x8::from(z));
+            let f = self.field.at([x * radius + cx, y * radius + cy, z * radius + cz]);
             let mut w = f.simd_lt(zero).select(inside, outside);
-            if k + 8 > exposed {
-                w *= f32x8::new(std::array::from_fn(|l| f32::from(u8::from(k + l < exposed))));
+            if 8 * g + 8 > exposed {
+                let mut there = [0.0; 8];
+                there[..exposed - 8 * g].fill(1.0);
+                w *= f32x8::new(there);
             }
             let pull = w * f.fast_max(-width).fast_min(width);
-            let [x, y, z] = d;
             let (wx, wy, wz) = (w * x, w * y, w * z);
-            for (sum, v) in
-                m.iter_mut().zip([wx * x, wx * y, wx * z, wx, wy * y, wy * z, wy, wz * z, wz, w])
-            {
-                *sum += v;
-            }
-            for (sum, v) in b.iter_mut().zip([pull * x, pull * y, pull * z, pull]) {
-                *sum -= v;
-            }
+            m[0] += wx * x;
+            m[1] += wx * y;
+            m[2] += wx * z;
+            m[3] += wx;
+            m[4] += wy * y;
+            m[5] += wy * z;
+            m[6] += wy;
+            m[7] += wz * z;
+            m[8] += wz;
+            m[9] += w;
+            b[0] -= pull * x;
+            b[1] -= pull * y;
+            b[2] -= pull * z;
+            b[3] -= pull;
         }
-        let total = |v: f32x8| v.to_array().iter().map(|&x| f64::from(x)).sum::<f64>();
-        Normal { m: m.map(total), b: b.map(total), exposed }
+        let mut out = Normal { exposed, ..Normal::default() };
+        let total = |v: &f32x8| v.to_array().iter().map(|&x| f64::from(x)).sum::<f64>();
+        out.m.iter_mut().zip(&m).for_each(|(to, v)| *to = total(v));
+        out.b.iter_mut().zip(&b).for_each(|(to, v)| *to = total(v));
+        out
     }
 }
 
@@ -160,8 +161,8 @@ fn caps_of<'b>(ball: &Ball, others: impl Iterator<Item = &'b Ball>, caps: &mut V
     caps.clear();
     let r2 = ball.radius * ball.radius;
     for other in others {
-        let way = ball.way(other);
-        let apart = ball.apart(other);
+        let [x, y, z] = ball.way(other);
+        let apart = x * x + y * y + z * z;
         // The point in direction d is hidden when d · way > along.
         let along = (r2 + apart - other.radius * other.radius) / (2.0 * ball.radius);
         let distance = apart.sqrt();
@@ -173,7 +174,7 @@ fn caps_of<'b>(ball: &Ball, others: impl Iterator<Item = &'b Ball>, caps: &mut V
         }
         // Now the distance is greater than zero, or one of two equal balls hides nothing.
         let inverse = 1.0 / distance.max(f32::MIN_POSITIVE);
-        caps.push(Cap { axis: way.map(|v| v * inverse), cos: along * inverse });
+        caps.push(Cap { axis: [x * inverse, y * inverse, z * inverse], cos: along * inverse });
     }
     caps.sort_unstable_by(|x, y| x.cos.total_cmp(&y.cos));
     true

@@ -1,6 +1,6 @@
 //! The fast sums against a slow transcription, and the forces against volumes.
 
-use super::super::cover::{Cover, Lengths};
+use super::super::cover::{Cover, Lengths, Look};
 use super::super::dexels::Seen;
 use super::super::directions::Directions;
 use super::super::random::Random;
@@ -127,7 +127,7 @@ fn pulls_are_the_slopes_of_volumes() {
         let mut cover = Cover::new(&dexels).unwrap();
         let mut cost = |balls: &[Ball]| {
             let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
-            let Lengths { union, both } = cover.whole(&dexels, &seen);
+            let Lengths { union, both } = cover.whole(&dexels, &seen, &mut Look::default());
             (0.8 * (union - both) - 1.3 * both) * dexels.cell()
         };
         let mut scratch = Scratch::default();

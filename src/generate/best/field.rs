@@ -38,31 +38,32 @@ impl<'a> Field<'a> {
 
     /// The values at eight places.
     #[inline(always)]
-    pub(super) fn at(&self, places: [f32x8; 3]) -> f32x8 {
-        let zero = f32x8::splat(0.0);
-        let mut base = [[0i32; 8]; 3];
-        let mut t = [zero; 3];
-        for a in 0..3 {
-            let u = (places[a] - self.origin[a]) * self.inverse[a];
-            let u = u.fast_max(zero).fast_min(f32x8::splat(self.last[a]));
-            let whole = u.fast_trunc_int();
-            t[a] = u - f32x8::from_i32x8(whole);
-            base[a] = whole.to_array();
-        }
-        let mut corner = [[0.0f32; 8]; 8];
+    pub(super) fn at(&self, [x, y, z]: [f32x8; 3]) -> f32x8 {
+        let (i, tx) = self.split(x, 0);
+        let (j, ty) = self.split(y, 1);
+        let (k, tz) = self.split(z, 2);
         let [row, layer] = self.stride;
+        // Corners x fastest, each of eight places.
+        let mut c = [[0.0f32; 8]; 8];
         for l in 0..8 {
-            let at = base[0][l] as usize + row * base[1][l] as usize + layer * base[2][l] as usize;
-            for (k, start) in [at, at + row, at + layer, at + layer + row].into_iter().enumerate() {
-                let pair = &self.values[start..start + 2];
-                corner[2 * k][l] = pair[0];
-                corner[2 * k + 1][l] = pair[1];
-            }
+            let at = i[l] as usize + row * j[l] as usize + layer * k[l] as usize;
+            let (low, high) = (&self.values[at..at + row + 2], &self.values[at + layer..]);
+            let high = &high[..row + 2];
+            (c[0][l], c[1][l], c[2][l], c[3][l]) = (low[0], low[1], low[row], low[row + 1]);
+            (c[4][l], c[5][l], c[6][l], c[7][l]) = (high[0], high[1], high[row], high[row + 1]);
         }
-        let c = corner.map(f32x8::new);
         let along = |a: f32x8, b: f32x8, t: f32x8| a + (b - a) * t;
-        let x = [0, 1, 2, 3].map(|k: usize| along(c[2 * k], c[2 * k + 1], t[0]));
-        along(along(x[0], x[1], t[1]), along(x[2], x[3], t[1]), t[2])
+        let edge = |k: usize| along(f32x8::new(c[k]), f32x8::new(c[k + 1]), tx);
+        along(along(edge(0), edge(2), ty), along(edge(4), edge(6), ty), tz)
+    }
+
+    /// The cells below places along an axis, and how far on from their centres.
+    #[inline(always)]
+    fn split(&self, x: f32x8, a: usize) -> ([i32; 8], f32x8) {
+        let u = (x - self.origin[a]) * self.inverse[a];
+        let u = u.fast_max(f32x8::splat(0.0)).fast_min(f32x8::splat(self.last[a]));
+        let whole = u.fast_trunc_int();
+        (whole.to_array(), u - f32x8::from_i32x8(whole))
     }
 
     /// The value at one place.

@@ -7,7 +7,7 @@
 //! with what is around them refined, and kept when the mismatch by exact columns falls.
 
 mod ball;
-#[allow(dead_code)] // Used by the search that follows.
+mod chords;
 mod cover;
 mod dexels;
 mod directions;
@@ -16,11 +16,13 @@ mod exposed;
 mod field;
 mod greedy;
 mod medial;
+mod moves;
 mod near;
-#[allow(dead_code)]
 mod random;
 mod refine;
+mod search;
 mod seeds;
+mod state;
 #[cfg(test)]
 mod test_bodies;
 
@@ -33,13 +35,15 @@ use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::shape::Body;
 use crate::solid::Solid;
-use cover::Cover;
-use dexels::{Dexels, Seen};
+use cover::Look;
+use dexels::Dexels;
 use directions::Directions;
 use exposed::Weights;
 use field::Field;
 use random::Random;
 use refine::{Radii, Refiner, Schedule, Task};
+use search::{BATCH, Search};
+use state::{Ground, State};
 
 /// Most spheres of a clump.
 const MOST: usize = 100_000;
@@ -90,9 +94,31 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
     };
     let shared = (n >= SHARED).then(|| run.pool());
     Refiner::default().refine(&task, &schedule, &mut balls, &all, &mut random, shared, &mut go);
-    let mut cover = Cover::new(&dexels)?;
-    let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
-    let d = cover.whole(&dexels, &seen).mismatch(dexels.target);
+    let ground = Ground { field: &field, dexels: &dexels, radii, size: size as f32 };
+    let mut state = State::new(ground, balls, &mut Look::default())?;
+    let mut search = Search::new(&mut state, run.seed(), run.pool());
+    let batches = plan.moves.div_ceil(BATCH);
+    for k in 0..batches {
+        if run.cancelled(0.4 + 0.5 * k as f64 / batches as f64) {
+            stopped = Stopped::Cancelled;
+        } else if run.late() {
+            stopped = Stopped::Deadline;
+        }
+        if stopped != Stopped::Spheres {
+            break;
+        }
+        search.batch();
+    }
+    if stopped == Stopped::Spheres && plan.polish[1] > 0 {
+        let schedule = Schedule {
+            iterations: plan.polish[1],
+            from: 0.004 * size as f32,
+            to: 0.0002 * size as f32,
+        };
+        search.settle(&schedule, &Directions::new(plan.polish[0]));
+    }
+    let d = state.mismatch();
+    let mut balls = state.balls;
     balls.sort_by(|x, y| y.radius.total_cmp(&x.radius));
     let spheres: Vec<Sphere> =
         balls.iter().map(|b| solid.frame().sphere_to_input(&b.sphere())).collect();

@@ -10,7 +10,8 @@ pub(super) struct Random(Pcg64);
 impl Random {
     /// The stream `stream` of `seed`: streams of one seed have nothing in common.
     pub(super) fn new(seed: u64, stream: u64) -> Random {
-        Random(Pcg64::new(u128::from(seed), u128::from(stream)))
+        let (low, high) = (mix(seed ^ mix(stream)), mix(stream ^ mix(!seed)));
+        Random(Pcg64::new(u128::from(low) | u128::from(high) << 64, u128::from(stream)))
     }
 
     /// From 0 to 1, without 1.
@@ -49,6 +50,14 @@ impl Random {
         ]
         .map(|row| row.map(|v| v as f32))
     }
+}
+
+/// Every bit of the result depends on every bit of `x` (Steele, Lea and Flood 2014).
+fn mix(x: u64) -> u64 {
+    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let x = (x ^ x >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ x >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ x >> 31
 }
 
 #[cfg(test)]

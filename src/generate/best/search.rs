@@ -1,0 +1,126 @@
+//! The search: moves in batches of a fixed size, tried side by side on the same clump. Those that
+//! help are taken one after the other, each only if it still helps after those before it. The
+//! result does not depend on how many threads share a batch.
+
+use super::cover::Look;
+use super::directions::Directions;
+use super::moves::{Fans, Moved, Mover};
+use super::random::Random;
+use super::refine::{Refiner, Schedule, Task};
+use super::state::State;
+use crate::run::Pool;
+use std::sync::{Mutex, PoisonError};
+
+/// Moves tried side by side.
+pub(super) const BATCH: usize = 8;
+/// Part of the moves that take the ball worth least.
+const CHEAPEST: f64 = 0.85;
+/// All balls are refined after so many moves that helped.
+const HELPED: u64 = 12;
+/// From so many samples of an iteration on, threads share it.
+const SHARED: usize = 16_384;
+
+/// A search with its random numbers and buffers.
+pub(super) struct Search<'s, 'a> {
+    pub state: &'s mut State<'a>,
+    pool: &'s Pool,
+    fans: Fans,
+    movers: Vec<Mutex<Mover>>,
+    look: Look,
+    refiner: Refiner,
+    random: Random,
+    seed: u64,
+    moves: u64,
+    helped: u64,
+}
+
+impl<'s, 'a> Search<'s, 'a> {
+    pub(super) fn new(state: &'s mut State<'a>, seed: u64, pool: &'s Pool) -> Search<'s, 'a> {
+        Search {
+            state,
+            pool,
+            fans: Fans::new(),
+            movers: (0..BATCH).map(|_| Mutex::default()).collect(),
+            look: Look::default(),
+            refiner: Refiner::default(),
+            random: Random::new(seed, 1),
+            seed,
+            moves: 0,
+            helped: 0,
+        }
+    }
+
+    /// Tries a batch of moves.
+    pub(super) fn batch(&mut self) {
+        let picked: Vec<usize> = (0..BATCH).map(|_| self.pick()).collect();
+        let (state, fans, movers) = (&*self.state, &self.fans, &self.movers);
+        let (seed, moves) = (self.seed, self.moves);
+        let found: Vec<Option<Moved>> = self.pool.map(BATCH, |k| {
+            let mut random = Random::new(seed, 2 + moves + k as u64);
+            let mut mover = movers[k].lock().unwrap_or_else(PoisonError::into_inner);
+            mover.attempt(state, fans, picked[k], &mut random)
+        });
+        self.moves += BATCH as u64;
+        let mut changed: Vec<u32> = Vec::new();
+        for moved in found.into_iter().flatten() {
+            if moved.of.iter().any(|j| changed.contains(j)) {
+                continue;
+            }
+            if self.state.take(&moved.of, &moved.balls, &mut self.look) {
+                changed.extend(&moved.of);
+                self.helped += 1;
+                if self.helped.is_multiple_of(HELPED) {
+                    let from = 0.006 * self.state.ground.size;
+                    let schedule = Schedule { iterations: 20, from, to: 0.2 * from };
+                    let many = Directions::new(192);
+                    self.settle(&schedule, &many);
+                    break;
+                }
+            }
+        }
+    }
+
+    /// The ball that is moved next.
+    fn pick(&mut self) -> usize {
+        let state = &mut *self.state;
+        let n = state.balls.len();
+        let mut best = (f64::MAX, 0);
+        if self.random.unit() >= CHEAPEST {
+            best.1 = self.random.below(n);
+        } else {
+            let least = 1e-3 * state.left() / n as f64;
+            for i in 0..n {
+                let worth = state.worth(i).max(least);
+                let key =
+                    worth * (1.0 + 0.5 * f64::from(state.tried[i])) * self.random.between(0.7, 1.3);
+                if key < best.0 {
+                    best = (key, i);
+                }
+            }
+        }
+        state.tried[best.1] += 1;
+        best.1
+    }
+
+    /// Refines all balls; the clump stays as it was where that does not help.
+    pub(super) fn settle(&mut self, schedule: &Schedule, directions: &Directions) {
+        let state = &mut *self.state;
+        let all: Vec<u32> = (0..state.balls.len() as u32).collect();
+        let before = (state.mismatch(), state.balls.clone());
+        let task = Task {
+            field: state.ground.field,
+            directions,
+            weights: state.weights(),
+            radii: state.ground.radii,
+        };
+        let shared = (all.len() * directions.len() >= SHARED).then_some(self.pool);
+        let balls = &mut state.balls;
+        let random = &mut self.random;
+        self.refiner.refine(&task, schedule, balls, &all, random, shared, &mut || true);
+        state.renew(&mut self.look);
+        if state.mismatch() >= before.0 {
+            state.balls = before.1;
+            state.renew(&mut self.look);
+        }
+    }
+}

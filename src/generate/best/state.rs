@@ -1,0 +1,178 @@
+//! A clump on its way down: its balls, what the columns hold of it, what each ball is worth, and
+//! where something is missing.
+
+use super::ball::Ball;
+use super::cover::{Cover, Lengths, Look};
+use super::dexels::{Dexels, Seen};
+use super::exposed::Weights;
+use super::field::Field;
+use super::random::Random;
+use super::refine::Radii;
+use crate::error::{Result, filled, reserve};
+
+/// What all parts of the search read.
+#[derive(Clone, Copy)]
+pub(super) struct Ground<'a> {
+    pub field: &'a Field<'a>,
+    pub dexels: &'a Dexels,
+    pub radii: Radii,
+    /// Length for which Huber's widths are given.
+    pub size: f32,
+}
+
+/// A clump with its books.
+pub(super) struct State<'a> {
+    pub ground: Ground<'a>,
+    pub balls: Vec<Ball>,
+    pub seen: Vec<Seen>,
+    pub cover: Cover,
+    lengths: Lengths,
+    /// What each ball covers that no other does.
+    alone: Vec<Lengths>,
+    /// Moves of each ball since it last changed.
+    pub tried: Vec<u32>,
+    /// For each row of columns, the sum of what its columns weigh when a place is drawn.
+    rows: Vec<f64>,
+    /// Changes so far.
+    pub version: u64,
+}
+
+impl<'a> State<'a> {
+    pub(super) fn new(ground: Ground<'a>, balls: Vec<Ball>, look: &mut Look) -> Result<State<'a>> {
+        let n = balls.len();
+        let mut state = State {
+            ground,
+            seen: reserve("balls along the columns", n)?,
+            balls,
+            cover: Cover::new(ground.dexels)?,
+            lengths: Lengths::default(),
+            alone: filled("what balls are worth", n, Lengths::default())?,
+            tried: filled("moves of balls", n, 0)?,
+            rows: reserve("rows of columns", ground.dexels.dims[1])?,
+            version: 0,
+        };
+        state.renew(look);
+        Ok(state)
+    }
+
+    /// D by the columns.
+    pub(super) fn mismatch(&self) -> f64 {
+        self.lengths.mismatch(self.ground.dexels.target)
+    }
+
+    /// The weights for which a step down is a step down in D.
+    pub(super) fn weights(&self) -> Weights {
+        Weights::at(self.mismatch())
+    }
+
+    /// What a change of the lengths costs: less than 0 exactly where D falls.
+    pub(super) fn cost(&self, change: &Lengths) -> f64 {
+        change.cost(self.mismatch())
+    }
+
+    /// All that is missing and too much, in units of the cost.
+    pub(super) fn left(&self) -> f64 {
+        let d = self.mismatch();
+        self.lengths.cost(d) + (1.0 + d) * self.ground.dexels.target
+    }
+
+    /// By how much the cost would rise without ball `i`.
+    pub(super) fn worth(&self, i: usize) -> f64 {
+        -self.cost(&self.alone[i])
+    }
+
+    /// Counts everything anew from the balls.
+    pub(super) fn renew(&mut self, look: &mut Look) {
+        let dexels = self.ground.dexels;
+        self.version += 1;
+        self.seen.clear();
+        self.seen.extend(self.balls.iter().map(|b| dexels.seen(b)));
+        self.lengths = self.cover.whole(dexels, &self.seen, look);
+        self.alone.fill(Lengths::default());
+        look.alone(dexels, &self.seen, 1.0, &mut self.alone);
+        self.rows.clear();
+        for b in 0..dexels.dims[1] {
+            self.rows.push(self.row(b));
+        }
+    }
+
+    /// Puts `balls` to the places of those with the numbers `of` if D falls; whether it does.
+    pub(super) fn take(&mut self, of: &[u32], balls: &[Ball], look: &mut Look) -> bool {
+        let dexels = self.ground.dexels;
+        let mut seen = self.seen.clone();
+        for (&j, ball) in of.iter().zip(balls) {
+            seen[j as usize] = dexels.seen(ball);
+        }
+        self.aim(of, &seen, look);
+        let change = look.change(&self.cover, dexels, &seen);
+        if self.cost(&change) >= 0.0 {
+            return false;
+        }
+        self.cover.take(dexels, look);
+        look.alone(dexels, &self.seen, -1.0, &mut self.alone);
+        look.alone(dexels, &seen, 1.0, &mut self.alone);
+        for b in look.region.numbers() {
+            self.rows[b] = self.row(b);
+        }
+        for (&j, ball) in of.iter().zip(balls) {
+            self.balls[j as usize] = *ball;
+            self.tried[j as usize] = 0;
+        }
+        self.seen = seen;
+        self.lengths = self.lengths.plus(&change);
+        self.version += 1;
+        true
+    }
+
+    /// Looks at the columns that the balls `of` touch now or in `seen`.
+    pub(super) fn aim(&self, of: &[u32], seen: &[Seen], look: &mut Look) {
+        let both = [self.seen.as_slice(), seen];
+        let changed = both.into_iter().flat_map(|all| of.iter().map(move |&j| all[j as usize]));
+        look.region.of(self.ground.dexels, changed);
+    }
+
+    /// The weights of a row's columns.
+    fn row(&self, b: usize) -> f64 {
+        (0..self.ground.dexels.dims[0]).map(|a| self.weight(a, b)).sum()
+    }
+
+    /// How likely a place of column (a, b) is drawn: more than its part of what is missing, as
+    /// long gaps take larger balls.
+    fn weight(&self, a: usize, b: usize) -> f64 {
+        long(self.cover.missing(self.ground.dexels, a + self.ground.dexels.dims[0] * b))
+    }
+
+    /// A place inside that is not covered.
+    pub(super) fn gap(
+        &self,
+        random: &mut Random,
+        look: &mut Look,
+        gaps: &mut Vec<[f32; 2]>,
+    ) -> Option<[f32; 3]> {
+        let dexels = self.ground.dexels;
+        let mut at = self.rows.iter().sum::<f64>() * random.unit();
+        let b = draw(&mut at, self.rows.iter().copied())?;
+        let a = draw(&mut at, (0..dexels.dims[0]).map(|a| self.weight(a, b)))?;
+        look.gaps(dexels, [a, b], &self.seen, gaps);
+        let mut at = gaps.iter().map(|g| long(g[1] - g[0])).sum::<f64>() * random.unit();
+        let g = gaps[draw(&mut at, gaps.iter().map(|g| long(g[1] - g[0])))?];
+        Some(dexels.point(a, b, g[0] + (g[1] - g[0]) * random.unit() as f32))
+    }
+}
+
+/// How likely a gap of this length is drawn.
+fn long(length: f32) -> f64 {
+    let x = f64::from(length.max(0.0));
+    x * x.sqrt()
+}
+
+/// The number of the weight in which `at` falls; `at` is then what is left.
+fn draw(at: &mut f64, weights: impl Iterator<Item = f64>) -> Option<usize> {
+    for (k, w) in weights.enumerate() {
+        if *at < w {
+            return Some(k);
+        }
+        *at -= w;
+    }
+    None
+}
