@@ -117,3 +117,87 @@ fn a_t_junction_is_closed_to_the_winding_number() {
     assert_eq!((s.report.boundary_edges, s.report.volume), (3, 1.0));
     assert!(has_note(&s, "edges with one face: 3, with more than two: 0"));
 }
+
+/// A cube with an edge that the faces at it cut at different places, and faces without area
+/// between them, from ears of the slit that `ear` chooses.
+fn slit(cuts: [u32; 2], ear: &mut dyn FnMut(usize) -> usize) -> Arrays {
+    let mut m = cube([0.0; 3], 1.0);
+    let mut slit = Vec::new();
+    for n in cuts {
+        let at = m.1.iter().position(|f| f.contains(&0) && f.contains(&1)).unwrap();
+        let mut f = m.1.remove(at);
+        while f[0] > 1 || f[1] > 1 {
+            f.rotate_left(1);
+        }
+        // Along the face from 0 to 1 or back: the faces of the slit run the other way.
+        let mut line = vec![f[0]];
+        for i in 1..=n {
+            let x = f64::from(i) / f64::from(n + 1);
+            line.push(m.0.len() as u32);
+            m.0.push([if f[0] == 0 { x } else { 1.0 - x }, 0.0, 0.0]);
+        }
+        slit.extend(line.iter().rev());
+        line.push(f[1]);
+        m.1.extend(line.windows(2).map(|w| [w[0], w[1], f[2]]));
+    }
+    while slit.len() > 2 {
+        let (n, i) = (slit.len(), ear(slit.len()));
+        m.1.push([slit[(i + n - 1) % n], slit[i], slit[(i + 1) % n]]);
+        slit.remove(i);
+    }
+    m
+}
+
+#[test]
+fn chains_of_faces_without_area_open_nothing() {
+    let mut k = 0usize;
+    let mut ears: [&mut dyn FnMut(usize) -> usize; 4] =
+        [&mut |_| 1, &mut |n| n / 2, &mut |n| n - 1, &mut |n| {
+            k = (k * 137 + 71) % 9973;
+            k % n
+        }];
+    for cuts in [[300, 0], [0, 40], [299, 196]] {
+        for (e, ear) in ears.iter_mut().enumerate() {
+            let m = slit(cuts, ear);
+            let r = import(&m).unwrap().report;
+            assert!(r.watertight && r.oriented, "{cuts:?} {e}: {r:?}");
+            assert_eq!(r.degenerate_faces, u64::from(cuts[0] + cuts[1]), "{cuts:?} {e}");
+            assert_eq!((r.faces as usize, r.volume), (m.1.len(), 1.0));
+        }
+    }
+    // A ribbon lower than the tolerance hangs on to nothing.
+    let mut m = cube([0.0; 3], 1.0);
+    let first = m.0.len() as u32;
+    for i in 0..102 {
+        m.0.push([0.2, 0.005 * f64::from(i), if i % 2 == 0 { 0.5 } else { 0.5 + 1e-8 }]);
+        if i >= 2 {
+            m.1.push([first + i - 2, first + i - 1, first + i]);
+        }
+    }
+    let r = import(&m).unwrap().report;
+    assert_eq!((r.faces, r.degenerate_faces, r.components), (12, 100, 1));
+}
+
+#[test]
+fn edges_cut_beside_their_ends_open_nothing() {
+    // Not welded: the surface is closed as it is.
+    for distance in [1e-15, 1e-12, 5e-11] {
+        let mut m = ball(12, 24);
+        for k in (0..m.1.len()).step_by(3) {
+            // The other face at the edge of the face from a to b.
+            let [a, b, c] = m.1[k];
+            let other = |f: &[u32; 3]| f.contains(&a) && f.contains(&b) && !f.contains(&c);
+            let Some(o) = m.1.iter().position(other) else { continue };
+            let n = m.0.len() as u32;
+            let [p, q] = [a, b].map(|v| m.0[v as usize]);
+            m.0.push([0, 1, 2].map(|i| p[i] + distance * (q[i] - p[i])));
+            let with = |f: [u32; 3], from: u32| f.map(|v| if v == from { n } else { v });
+            m.1.extend([with([a, b, c], a), with(m.1[o], a)]);
+            (m.1[k], m.1[o]) = ([a, n, c], with(m.1[o], b));
+        }
+        let r = import(&m).unwrap().report;
+        let (volume, whole) = (r.volume, import(&ball(12, 24)).unwrap().report.volume);
+        assert!(r.watertight && r.oriented && (volume - whole).abs() < 1e-9, "{r:?}");
+        assert_eq!(r.degenerate_faces + r.faces, m.1.len() as u64, "{distance}");
+    }
+}

@@ -4,6 +4,7 @@
 mod check;
 mod cross;
 mod field;
+mod flat;
 mod inside;
 mod orient;
 mod parts;

@@ -1,6 +1,7 @@
 //! Faces that are no faces: without area, or present more than once.
 
 use super::check::Grain;
+use super::flat;
 use super::topology::{Edges, Union};
 use super::tree::Bounds;
 use super::weld;
@@ -74,7 +75,7 @@ pub fn close(faces: &[[u32; 3]], points: &[Vec3], tolerance: f64, grain: Grain) 
         }
     }
     let mut kept = best.0;
-    drop_flat(&mut kept, points, reach, grain.flat())?;
+    kept.degenerate += flat::drop_flat(&mut kept.faces, points, reach, grain.flat())?;
     Ok(kept)
 }
 
@@ -110,98 +111,6 @@ fn attempt(faces: &[[u32; 3]], used: &[bool], root: &[u32], exact: &[u32]) -> Re
     kept.moved = (0..used.len()).filter(is).filter(moved).count() as u64;
     let faulty = Edges::of(&kept.faces)?.faulty();
     Ok((kept, faulty))
-}
-
-/// Height over the longest edge, and which corner is opposite to it.
-fn height(f: &[u32; 3], points: &[Vec3]) -> (f64, usize) {
-    let [a, b, c] = f.map(|v| points[v as usize]);
-    let edges = [(c - b).norm(), (a - c).norm(), (b - a).norm()];
-    let mut apex = 0;
-    for k in 1..3 {
-        if edges[k] > edges[apex] {
-            apex = k;
-        }
-    }
-    let double_area = (b - a).cross(&(c - a)).norm();
-    if double_area > 0.0 { (double_area / edges[apex], apex) } else { (0.0, apex) }
-}
-
-/// Takes out faces whose corners lie on a line. The apex of such a face lies on its
-/// longest edge; when one other face is there, that one is cut in two at the apex,
-/// so that nothing opens. Faces lower than `reach` that only hang on to
-/// others (more of their edges are free than shared by two) are taken out, too.
-/// A face lower than `no_area` has none.
-fn drop_flat(kept: &mut Kept, points: &[Vec3], reach: f64, no_area: f64) -> Result<()> {
-    // Each pass cuts every face at most once; a chain of flat faces needs several.
-    for _ in 0..32 {
-        let is_flat = |f: &[u32; 3]| height(f, points).0 <= reach.max(no_area);
-        let mut flat: Vec<u32> =
-            reserve("flat faces", kept.faces.iter().filter(|f| is_flat(f)).count())?;
-        flat.extend((0..kept.faces.len() as u32).filter(|&i| is_flat(&kept.faces[i as usize])));
-        if flat.is_empty() {
-            return Ok(());
-        }
-        let faces = &mut kept.faces;
-        let at = at_edges(faces, &Edges::of(faces)?)?;
-        let mut touched = filled("faces", faces.len(), false)?;
-        let mut gone = filled("faces", faces.len(), false)?;
-        for i in flat.into_iter().map(|i| i as usize) {
-            let free = at[i].iter().filter(|e| e.0 == 1).count();
-            let pairs = at[i].iter().filter(|e| e.0 == 2).count();
-            let (h, apex) = height(&faces[i], points);
-            let (count, other) = at[i][apex];
-            if touched[i] {
-                continue;
-            }
-            if free > pairs || h <= no_area && count != 2 {
-                gone[i] = true;
-            } else if h <= no_area && !touched[other as usize] {
-                let m = faces[i][apex];
-                let (a, b) = (faces[i][(apex + 1) % 3], faces[i][(apex + 2) % 3]);
-                let o = other as usize;
-                touched[o] = true;
-                if faces[o].contains(&m) {
-                    gone[i] = true;
-                    continue;
-                }
-                // The other face is a, b, x in either sense: a, m, x and m, b, x follow it.
-                let with = |from: u32, to: u32| faces[o].map(|v| if v == from { to } else { v });
-                let (first, second) = (with(b, m), with(a, m));
-                faces[o] = first;
-                faces[i] = second;
-                kept.degenerate += 1;
-            } else {
-                continue;
-            }
-            touched[i] = true;
-        }
-        if !touched.contains(&true) && !gone.contains(&true) {
-            return Ok(());
-        }
-        kept.degenerate += gone.iter().filter(|&&g| g).count() as u64;
-        let mut it = gone.iter();
-        faces.retain(|_| !it.next().is_some_and(|&g| g));
-    }
-    // What could not be healed by cutting goes.
-    let before = kept.faces.len();
-    kept.faces.retain(|f| height(f, points).0 > no_area);
-    kept.degenerate += (before - kept.faces.len()) as u64;
-    Ok(())
-}
-
-/// For each face and corner: how many faces are at the edge opposite to the corner,
-/// and another one of them.
-fn at_edges(faces: &[[u32; 3]], edges: &Edges) -> Result<Vec<[(usize, u32); 3]>> {
-    let mut at = filled("edges of faces", faces.len(), [(0, 0); 3])?;
-    for e in edges.iter() {
-        for s in e {
-            let (lo, hi) = ((s.key >> 32) as u32, s.key as u32);
-            let opposite = faces[s.face as usize].iter().position(|&v| v != lo && v != hi);
-            let other = e.iter().find(|t| t.face != s.face).map_or(s.face, |t| t.face);
-            at[s.face as usize][opposite.unwrap_or(0)] = (e.len(), other);
-        }
-    }
-    Ok(at)
 }
 
 /// Keeps one of the faces with the same three vertices, with the sense of the most.
