@@ -46,7 +46,7 @@ pub struct Args {
     /// Threads; 0: all cores. The result does not depend on it
     #[arg(long, default_value_t = 0, value_parser = whole::<usize>)]
     threads: usize,
-    /// No progress bar, no summary
+    /// No progress bar, no summary, no notes
     #[arg(short, long)]
     quiet: bool,
     #[command(flatten)]

@@ -1,7 +1,7 @@
 //! The parameters of analytic particles by name: what each means, what it may be.
 
 use super::Primitive;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, figure};
 
 /// One parameter of a [`Primitive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +48,7 @@ impl Range {
         if ok {
             return Ok(());
         }
+        let value = figure(value);
         Err(Error::InvalidArgument(format!("{key} of the {name} is {value}, not {range}")))
     }
 }
@@ -83,7 +84,8 @@ impl Primitive {
                 || value.fract() != 0.0
             {
                 return Err(Error::InvalidArgument(format!(
-                    "seed of the stone is {value}, not a whole number from 0 to 2^53"
+                    "seed of the stone is {}, not a whole number from 0 to 2^53",
+                    figure(value)
                 )));
             }
             *seed = value as u64;
