@@ -90,7 +90,7 @@ pub const BYTES_PER_CELL: u64 = 24;
 const MOST_CELLS: u64 = 1 << 31;
 /// Most cells that a grid made finer for a thin shape may have (100 MB, some seconds).
 const MOST_REFINED: f64 = (4u64 << 20) as f64;
-/// The same where fewer would not show the shape at all.
+/// The same where fewer show nothing of the shape.
 const MOST_NEEDED: f64 = (16u64 << 20) as f64;
 /// Cells wanted across the shortest edge of the box.
 const ACROSS_BOX: f64 = 4.0;
@@ -237,9 +237,19 @@ fn of_mesh(
             let step = |i: u32| asked * (wanted / asked).powf(f64::from(i) / 64.0);
             h = (1..64).rev().map(step).find(|&h| fits(h, MOST_REFINED)).unwrap_or(asked);
         }
-        if h > least && fits(least, MOST_NEEDED) {
-            h = least;
-        }
+    }
+    let made = |h: f64| {
+        let dims = dims_of(h).map(|n| n as usize);
+        let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
+        let grid = Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half };
+        let limit = options.memory_limit;
+        let inside = coverage::inside(&shape.body, &grid, options.padding, limit, run)?;
+        Ok((inside.contains(&1), grid, inside))
+    };
+    let (mut shown, mut grid, mut inside) = made(h)?;
+    if !shown && may_refine && least < h && fits(least, MOST_NEEDED) {
+        h = least;
+        (shown, grid, inside) = made(h)?;
     }
     let scale = shape.frame.scale;
     if h < asked {
@@ -267,18 +277,14 @@ fn of_mesh(
     if wanted < h * (1.0 - 1e-9) {
         notes.push(format!("the shape is thin: {}", short_of(wanted)));
     }
-    let dims = dims_of(h).map(|n| n as usize);
-    let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
-    let grid = Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half };
-    let inside = coverage::inside(&shape.body, &grid, options.padding, options.memory_limit, run)?;
-    if !inside.contains(&1) && h >= edges.max() {
+    if !shown && h >= edges.max() {
         return Err(Error::Empty(format!(
             "cells of {:.3e} are larger than the shape, {:.3e} along its longest edge",
             h * scale,
             edges.max() * scale
         )));
     }
-    if !inside.contains(&1) {
+    if !shown {
         return Err(Error::Empty(format!(
             "the shape is too thin for its grid, no cell is more than half covered: {}",
             short_of(thickness / ACROSS_THICKNESS)
