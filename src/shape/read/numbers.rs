@@ -62,34 +62,10 @@ impl Numbers {
             Numbers::U16(v) => RawValues::U16(v),
             Numbers::U32(v) => RawValues::U32(v),
             Numbers::F32(v) => RawValues::F32(v),
-            Numbers::I8(v) => {
-                if v.iter().all(|&x| x >= 0) {
-                    RawValues::U8(map(&v, |_, x| Ok(x as u8))?)
-                } else {
-                    signed(&v, "8-bit", notes)?
-                }
-            }
-            Numbers::I16(v) => {
-                if v.iter().all(|&x| x >= 0) {
-                    RawValues::U16(map(&v, |_, x| Ok(x as u16))?)
-                } else {
-                    signed(&v, "16-bit", notes)?
-                }
-            }
-            Numbers::I32(v) => {
-                if v.iter().all(|&x| x >= 0) {
-                    RawValues::U32(map(&v, |_, x| Ok(x as u32))?)
-                } else {
-                    signed(&v, "32-bit", notes)?
-                }
-            }
-            Numbers::I64(v) => {
-                if v.iter().all(|&x| u32::try_from(x).is_ok()) {
-                    RawValues::U32(map(&v, |_, x| Ok(x as u32))?)
-                } else {
-                    signed(&v, "64-bit", notes)?
-                }
-            }
+            Numbers::I8(v) => whole(&v, RawValues::U8, notes)?,
+            Numbers::I16(v) => whole(&v, RawValues::U16, notes)?,
+            Numbers::I32(v) => whole(&v, RawValues::U32, notes)?,
+            Numbers::I64(v) => whole(&v, RawValues::U32, notes)?,
             Numbers::U64(v) => RawValues::U32(map(&v, |i, x| {
                 u32::try_from(x).map_err(|_| {
                     Error::Unsupported(format!("voxel {i} is {x}, more than 32 bits hold"))
@@ -131,15 +107,22 @@ fn map<T: Copy, U>(values: &[T], f: impl Fn(usize, T) -> Result<U>) -> Result<Ve
     Ok(out)
 }
 
-/// Whole numbers, some negative, in single precision.
-fn signed<T: Copy + Into<i64>>(
+/// Whole numbers in the unsigned type if it holds them all, else in single precision.
+fn whole<T: Copy + Into<i64>, U: TryFrom<i64>>(
     values: &[T],
-    bits: &str,
+    unsigned: fn(Vec<U>) -> RawValues,
     notes: &mut Vec<String>,
 ) -> Result<RawValues> {
+    let fit = |&v: &T| U::try_from(v.into()).ok();
+    if values.iter().all(|v| fit(v).is_some()) {
+        let mut out = reserve("voxel values", values.len())?;
+        out.extend(values.iter().filter_map(fit));
+        return Ok(unsigned(out));
+    }
     if values.iter().any(|&v| !(-EXACT..=EXACT).contains(&v.into())) {
         notes.push(format!(
-            "voxel values beyond 2^24 were rounded from {bits} integers to single precision"
+            "voxel values beyond 2^24 were rounded from {}-bit integers to single precision",
+            8 * size_of::<T>()
         ));
     }
     Ok(RawValues::F32(map(values, |_, v| Ok(v.into() as f32))?))
