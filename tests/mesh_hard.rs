@@ -5,7 +5,7 @@
 
 mod common;
 
-use common::{Arrays, add, cuboid, soup, sphere, turned};
+use common::{Arrays, add, cuboid, pieces, soup, sphere, turned};
 use morula::shape::{Bodies, ImportOptions};
 use morula::{Error, Run, Shape};
 
@@ -68,14 +68,7 @@ fn faces_that_vanish_close_nothing() {
 
 #[test]
 fn a_surface_in_pieces_is_one_surface() {
-    // Each triangle a little smaller than its place.
-    let mut m = soup(&sphere(200, 400, 1.0, [0.0; 3]));
-    for f in m.0.chunks_exact_mut(3) {
-        let middle = [0, 1, 2].map(|k| (f[0][k] + f[1][k] + f[2][k]) / 3.0);
-        for v in f {
-            *v = [0, 1, 2].map(|k| middle[k] + 0.99 * (v[k] - middle[k]));
-        }
-    }
+    let m = pieces(&sphere(200, 400, 1.0, [0.0; 3]));
     let r = import(&m).unwrap().report;
     // But for the smallest, at the poles, which are nearer than the tolerance.
     assert_eq!((r.bodies, r.faces), (1, m.1.len() as u64));

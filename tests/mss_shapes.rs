@@ -5,26 +5,29 @@
 #[path = "common/cells.rs"]
 mod shared;
 
-use morula::Run;
 use morula::clump::Stopped;
 use morula::generate::{GenerateOptions, generate};
+use morula::{Run, Sphere};
 use shared::{Cell, ask, balls, cells, make, mismatch, square};
+
+/// A clump of as many spheres as there are balls has each of them, to `off` at the centre and in
+/// the radius.
+fn recovers(list: &[([f64; 3], f64)], dims: [usize; 3], off: [f64; 2], most: f64) {
+    let (solid, mask) = cells(dims, [1.0; 3], &balls(list));
+    let clump = make(&solid, &ask(list.len()));
+    for (c, r) in list {
+        let near = |s: &Sphere| square(s.center.into(), *c).sqrt() < off[0];
+        let found = clump.spheres.iter().any(|s| near(s) && (s.radius - r).abs() < off[1]);
+        assert!(found, "{c:?} {r}: {:?}", clump.spheres);
+    }
+    assert!(mismatch(&mask, dims, [1.0; 3], &clump.spheres) < most);
+}
 
 #[test]
 fn two_overlapping_balls_are_both_found() {
     // Figure 6 of Buchele et al. 2026: the smaller one shows in 2E − Ẽ only.
     let two = [([20.0, 18.0, 18.0], 14.0), ([33.0, 18.0, 18.0], 10.0)];
-    let dims = [50, 37, 37];
-    let (solid, mask) = cells(dims, [1.0; 3], &balls(&two));
-    let clump = make(&solid, &ask(2));
-    for (c, r) in two {
-        let found = clump
-            .spheres
-            .iter()
-            .any(|s| square(s.center.into(), c).sqrt() < 1.0 && (s.radius - r).abs() < 0.6);
-        assert!(found, "{c:?} {r}: {:?}", clump.spheres);
-    }
-    assert!(mismatch(&mask, dims, [1.0; 3], &clump.spheres) < 0.02);
+    recovers(&two, [50, 37, 37], [1.0, 0.6], 0.02);
 }
 
 #[test]
@@ -35,17 +38,7 @@ fn four_balls_are_recovered() {
         ([22.0, 42.0, 24.0], 9.0),
         ([38.0, 38.0, 26.0], 11.0),
     ];
-    let dims = [56, 56, 46];
-    let (solid, mask) = cells(dims, [1.0; 3], &balls(&four));
-    let clump = make(&solid, &ask(4));
-    for (c, r) in four {
-        let found = clump
-            .spheres
-            .iter()
-            .any(|s| square(s.center.into(), c).sqrt() < 1.5 && (s.radius - r).abs() < 1.0);
-        assert!(found, "{c:?} {r}: {:?}", clump.spheres);
-    }
-    assert!(mismatch(&mask, dims, [1.0; 3], &clump.spheres) < 0.03);
+    recovers(&four, [56, 56, 46], [1.5, 1.0], 0.03);
 }
 
 #[test]

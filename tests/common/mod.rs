@@ -58,6 +58,16 @@ pub fn soup(m: &Arrays) -> Arrays {
     (v, f)
 }
 
+/// Each face apart, a little smaller than its place.
+pub fn pieces(m: &Arrays) -> Arrays {
+    let mut m = soup(m);
+    for f in m.0.chunks_exact_mut(3) {
+        let middle = [0, 1, 2].map(|k| (f[0][k] + f[1][k] + f[2][k]) / 3.0);
+        f.iter_mut().for_each(|v| *v = [0, 1, 2].map(|k| middle[k] + 0.99 * (v[k] - middle[k])));
+    }
+    m
+}
+
 /// Inside out.
 pub fn turned(mut m: Arrays) -> Arrays {
     m.1.iter_mut().for_each(|f| f.swap(1, 2));
