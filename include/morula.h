@@ -214,6 +214,10 @@
 /// Least mismatch for the number of spheres.
 #define MORULA_METHOD_BEST 1
 
+/// Spheres through four points of the surface, fitted to it; the method finds its own number, which
+/// `spheres` limits.
+#define MORULA_METHOD_SURFACE_FIT 2
+
 /// MORULA_METHOD_BEST: milliseconds.
 #define MORULA_EFFORT_DRAFT 0
 
@@ -508,8 +512,8 @@ typedef struct morula_clump_options {
   /// Seed of every random choice. Default 0.
   uint64_t seed;
   /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS. min_distance, radius_offset and confine
-  /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST needs a number of spheres and
-  /// refuses what it does not read.
+  /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST needs a number of spheres;
+  /// it and MORULA_METHOD_SURFACE_FIT refuse what they do not read.
   int32_t method;
   /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
   int32_t confine;

@@ -72,6 +72,9 @@ pub const MORULA_RESOLUTION_CELL_SIZE: i32 = 3;
 pub const MORULA_METHOD_MSS: i32 = 0;
 /// Least mismatch for the number of spheres.
 pub const MORULA_METHOD_BEST: i32 = 1;
+/// Spheres through four points of the surface, fitted to it; the method finds its own number, which
+/// `spheres` limits.
+pub const MORULA_METHOD_SURFACE_FIT: i32 = 2;
 
 /// MORULA_METHOD_BEST: milliseconds.
 pub const MORULA_EFFORT_DRAFT: i32 = 0;

@@ -53,6 +53,7 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
     let method = match o.method {
         MORULA_METHOD_MSS => Method::Mss,
         MORULA_METHOD_BEST => Method::Best,
+        MORULA_METHOD_SURFACE_FIT => Method::SurfaceFit,
         other => return no_choice("method", other),
     };
     let effort = match o.effort {

@@ -114,8 +114,8 @@ pub struct morula_clump_options {
     /// Seed of every random choice. Default 0.
     pub seed: u64,
     /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS. min_distance, radius_offset and confine
-    /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST needs a number of spheres and
-    /// refuses what it does not read.
+    /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST needs a number of spheres;
+    /// it and MORULA_METHOD_SURFACE_FIT refuse what they do not read.
     pub method: i32,
     /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
     pub confine: i32,

@@ -3,6 +3,7 @@
 pub mod best;
 pub mod cover;
 pub mod mss;
+mod surface_fit;
 
 use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result, figure};
@@ -20,6 +21,9 @@ pub enum Method {
     /// Least mismatch for the number of spheres: greedy cover, refinement of exposed surfaces,
     /// spheres moved to where they help more.
     Best,
+    /// Spheres through four points of the surface, fitted to it by least squares (Price et al.
+    /// 2007). The number of spheres is the method's own; `spheres` limits it.
+    SurfaceFit,
 }
 
 /// What a generator is asked for. The criteria apply alone or together; the
@@ -68,6 +72,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
     let mut clump = run.time(Stage::Generate, || match options.method {
         Method::Mss => mss::mss(solid, options, run),
         Method::Best => best::best(solid, options, run),
+        Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
     })?;
     // A cancelled call measures no more: the clump goes out without figures.
     if let Some(wanted) = &options.quality
@@ -100,7 +105,9 @@ fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
             o.radius_offset
         )));
     }
-    if o.spheres == 0 && o.mismatch == 0.0 && o.min_radius == 0.0 && !run.can_stop() {
+    // Surface fitting ends by itself.
+    let endless = o.method != Method::SurfaceFit;
+    if endless && o.spheres == 0 && o.mismatch == 0.0 && o.min_radius == 0.0 && !run.can_stop() {
         return Err(Error::InvalidArgument(
             "no criterion is given: spheres, mismatch and min_radius are all 0, and there is \
              neither a deadline nor a progress callback that could cancel"

@@ -19,7 +19,7 @@ pub struct Args {
     /// Shape: STL, OBJ, PLY, OFF, npy, TIFF or raw voxels, or sample:NAME[,key=value…]
     input: String,
     /// Number of spheres; 0: no limit, which takes another criterion [default: 50, or 0 with
-    /// --mismatch or --min-radius]
+    /// --mismatch, --min-radius or --method surface-fit]
     #[arg(short = 'n', long = "spheres", value_name = "N", value_parser = whole::<usize>)]
     spheres: Option<usize>,
     /// File to write; - is stdout [default: stdout]
@@ -94,6 +94,8 @@ enum MethodArg {
     Mss,
     /// Least mismatch for the number of spheres
     Best,
+    /// Spheres fitted to the surface (paper of Price, Murariu and Morrison); finds its own number
+    SurfaceFit,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -162,6 +164,7 @@ pub fn run(args: &Args) -> Done {
     let options = args.generate_options();
     // The library would take the progress bar for one who can cancel.
     if options.spheres == 0
+        && options.method != Method::SurfaceFit
         && options.mismatch == 0.0
         && options.min_radius == 0.0
         && args.making.deadline.is_none()
@@ -219,11 +222,14 @@ impl Args {
 
     fn generate_options(&self) -> GenerateOptions {
         let m = &self.making;
-        let unbounded = m.mismatch.is_some() || m.min_radius.is_some();
+        let unbounded = m.mismatch.is_some()
+            || m.min_radius.is_some()
+            || matches!(m.method, MethodArg::SurfaceFit);
         GenerateOptions {
             method: match m.method {
                 MethodArg::Mss => Method::Mss,
                 MethodArg::Best => Method::Best,
+                MethodArg::SurfaceFit => Method::SurfaceFit,
             },
             effort: match m.effort {
                 EffortArg::Draft => Effort::Draft,

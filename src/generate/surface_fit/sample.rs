@@ -1,0 +1,130 @@
+//! Random four-point spheres and their culling (Price et al. 2007, sections 2.1.1 and 2.1.2).
+
+use super::draw::Draw;
+use super::four_point::{FourPoints, through};
+use super::hull::Hull;
+use super::points::Points;
+use super::rules::Rules;
+use crate::error::{Result, push, reserve};
+use crate::math::Sphere;
+use crate::run::Run;
+use crate::solid::nearest::Surface;
+
+/// Quadruples of a round, and those worked on together.
+const ROUND: usize = 4096;
+const CHUNK: usize = 64;
+/// Most rounds.
+const ROUNDS: usize = 30;
+/// Sampling ends when no more than this part of the points is left.
+const LEFT: f64 = 0.01;
+/// Every second quadruple comes from a window of the list, at least so wide.
+const WINDOW: usize = 12;
+/// The stream of random numbers.
+const STREAM: u64 = 2;
+
+/// Decides which spheres are of use.
+pub(super) struct Sieve<'a> {
+    pub hull: &'a Hull,
+    pub surface: &'a Surface,
+    pub rules: &'a Rules,
+}
+
+impl Sieve<'_> {
+    /// Whether a sphere touches the surface from inside to within a tolerance: it reaches no
+    /// farther beyond the hull (eq 7 with the other side), nor beyond the surface itself, is no
+    /// farther from it (eq 7; for a convex body the distance to the hull is that to the surface),
+    /// and its centre lies inside.
+    pub fn keeps(&self, s: &Sphere, asked: &mut u64) -> bool {
+        let rules = self.rules;
+        if !(s.radius >= rules.min_radius && s.radius <= rules.most) {
+            return false;
+        }
+        let slack = rules.slack(s.radius);
+        let enough = s.radius - slack;
+        if self.hull.depth(&s.center, enough) < enough {
+            return false;
+        }
+        *asked += 1;
+        let Some(near) = self.surface.nearest_within(&s.center, s.radius + slack) else {
+            return false;
+        };
+        near.distance >= enough && self.surface.contains(&s.center)
+    }
+}
+
+/// What the sampling came to.
+pub(super) struct Sampled {
+    pub spheres: Vec<Sphere>,
+    /// Quadruples drawn, and distances to the surface that were asked for.
+    pub drawn: u64,
+    pub distances: u64,
+}
+
+/// Draws spheres until nearly every point is close to one. `go` is asked before each round but the
+/// first, with whether there is a sphere.
+pub(super) fn sample(
+    points: &Points,
+    sieve: &Sieve,
+    run: &Run,
+    go: &mut impl FnMut(f64, bool) -> bool,
+) -> Result<Sampled> {
+    let mut left: Vec<u32> = reserve("the list of points", points.at.len())?;
+    left.extend(0..points.at.len() as u32);
+    let enough = (points.at.len() as f64 * LEFT) as usize;
+    let mut out = Sampled { spheres: Vec::new(), drawn: 0, distances: 0 };
+    for round in 0..ROUNDS {
+        if left.len() <= enough.max(3) {
+            break;
+        }
+        if !go(round as f64 / ROUNDS as f64, !out.spheres.is_empty()) {
+            break;
+        }
+        let seed = run.seed();
+        let found = run.pool().map(ROUND / CHUNK, |c| {
+            let places = (c * CHUNK..(c + 1) * CHUNK).map(|i| (round * ROUND + i) as u64);
+            let mut asked = 0;
+            let mut some = Vec::new();
+            for place in places {
+                let sphere = draw(points, &left, seed, place, sieve.rules.grain);
+                some.extend(sphere.filter(|s| sieve.keeps(s, &mut asked)));
+            }
+            (some, asked)
+        });
+        out.drawn += ROUND as u64;
+        let first = out.spheres.len();
+        for (some, asked) in found {
+            out.distances += asked;
+            for s in some {
+                push("four-point spheres", &mut out.spheres, s)?;
+            }
+        }
+        let fresh = out.spheres.get(first..).unwrap_or_default();
+        let tolerance = sieve.rules.satisfied;
+        left.retain(|&i| {
+            let p = points.at.get(i as usize).copied().unwrap_or_default();
+            !fresh.iter().any(|s| ((p - s.center).norm() - s.radius).abs() <= tolerance)
+        });
+    }
+    Ok(out)
+}
+
+/// One sphere, if four points make one.
+fn draw(points: &Points, left: &[u32], seed: u64, place: u64, grain: f64) -> Option<Sphere> {
+    let mut draw = Draw::new(seed, STREAM, place);
+    let n = left.len();
+    // Four of the whole list, or of a window of it of any width: neighbours on the surface.
+    let (mut from, mut width) = (0, n);
+    if place % 2 == 1 {
+        let halvings = (n / WINDOW).max(1).ilog2() as usize + 1;
+        width = (n >> draw.below(halvings)).max(4).min(n);
+        from = draw.below(n - width + 1);
+    }
+    let mut corner = || {
+        let i = left.get(from + draw.below(width))?;
+        points.at.get(*i as usize).copied()
+    };
+    match through(&[corner()?, corner()?, corner()?, corner()?], grain) {
+        FourPoints::Sphere(s) => Some(s),
+        _ => None,
+    }
+}
