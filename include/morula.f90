@@ -89,6 +89,7 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_METHOD_MSS = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_BEST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_SURFACE_FIT = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_METHOD_INSCRIBED = 3_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_DRAFT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_NORMAL = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_THOROUGH = 2_c_int32_t

@@ -218,6 +218,9 @@
 /// `spheres` limits.
 #define MORULA_METHOD_SURFACE_FIT 2
 
+/// Most coverage with no sphere beyond the surface.
+#define MORULA_METHOD_INSCRIBED 3
+
 /// MORULA_METHOD_BEST: milliseconds.
 #define MORULA_EFFORT_DRAFT 0
 
@@ -512,8 +515,9 @@ typedef struct morula_clump_options {
   /// Seed of every random choice. Default 0.
   uint64_t seed;
   /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS. min_distance, radius_offset and confine
-  /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST needs a number of spheres;
-  /// it and MORULA_METHOD_SURFACE_FIT refuse what they do not read.
+  /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST and
+  /// MORULA_METHOD_INSCRIBED need a number of spheres. Every other method refuses what it does
+  /// not read.
   int32_t method;
   /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
   int32_t confine;
@@ -535,7 +539,7 @@ typedef struct morula_clump_options {
   morula_progress progress;
   /// Handed to `progress`.
   void *user;
-  /// One of MORULA_EFFORT_*, for MORULA_METHOD_BEST. Default MORULA_EFFORT_NORMAL.
+  /// One of MORULA_EFFORT_*, for MORULA_METHOD_BEST and MORULA_METHOD_INSCRIBED. Default MORULA_EFFORT_NORMAL.
   int32_t effort;
   /// Must be 0.
   int32_t reserved;

@@ -75,6 +75,8 @@ pub const MORULA_METHOD_BEST: i32 = 1;
 /// Spheres through four points of the surface, fitted to it; the method finds its own number, which
 /// `spheres` limits.
 pub const MORULA_METHOD_SURFACE_FIT: i32 = 2;
+/// Most coverage with no sphere beyond the surface.
+pub const MORULA_METHOD_INSCRIBED: i32 = 3;
 
 /// MORULA_METHOD_BEST: milliseconds.
 pub const MORULA_EFFORT_DRAFT: i32 = 0;

@@ -54,6 +54,7 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
         MORULA_METHOD_MSS => Method::Mss,
         MORULA_METHOD_BEST => Method::Best,
         MORULA_METHOD_SURFACE_FIT => Method::SurfaceFit,
+        MORULA_METHOD_INSCRIBED => Method::Inscribed,
         other => return no_choice("method", other),
     };
     let effort = match o.effort {

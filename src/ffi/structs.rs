@@ -114,8 +114,9 @@ pub struct morula_clump_options {
     /// Seed of every random choice. Default 0.
     pub seed: u64,
     /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS. min_distance, radius_offset and confine
-    /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST needs a number of spheres;
-    /// it and MORULA_METHOD_SURFACE_FIT refuse what they do not read.
+    /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST and
+    /// MORULA_METHOD_INSCRIBED need a number of spheres. Every other method refuses what it does
+    /// not read.
     pub method: i32,
     /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
     pub confine: i32,
@@ -137,7 +138,7 @@ pub struct morula_clump_options {
     pub progress: morula_progress,
     /// Handed to `progress`.
     pub user: *mut c_void,
-    /// One of MORULA_EFFORT_*, for MORULA_METHOD_BEST. Default MORULA_EFFORT_NORMAL.
+    /// One of MORULA_EFFORT_*, for MORULA_METHOD_BEST and MORULA_METHOD_INSCRIBED. Default MORULA_EFFORT_NORMAL.
     pub effort: i32,
     /// Must be 0.
     pub reserved: i32,

@@ -24,6 +24,8 @@ pub enum Method {
     /// Spheres through four points of the surface, fitted to it by least squares (Price et al.
     /// 2007). The number of spheres is the method's own; `spheres` limits it.
     SurfaceFit,
+    /// Most coverage with no sphere beyond the surface: radii are exact depths.
+    Inscribed,
 }
 
 /// What a generator is asked for. The criteria apply alone or together; the
@@ -44,7 +46,7 @@ pub struct GenerateOptions {
     pub radius_offset: f64,
     /// Limit the radii so that no sphere reaches beyond the true surface (Buchele et al. 2026, section 3.5).
     pub confine: bool,
-    /// How long [`Method::Best`] looks for a clump.
+    /// How long [`Method::Best`] and [`Method::Inscribed`] look for a clump.
     pub effort: Effort,
     /// Quality to measure on the result; `None` costs nothing.
     pub quality: Option<QualityOptions>,
@@ -73,6 +75,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
         Method::Mss => mss::mss(solid, options, run),
         Method::Best => best::best(solid, options, run),
         Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
+        Method::Inscribed => best::inscribed::inscribed(solid, options, run),
     })?;
     // A cancelled call measures no more: the clump goes out without figures.
     if let Some(wanted) = &options.quality

@@ -63,7 +63,7 @@ struct Making {
     /// How spheres are found
     #[arg(long, value_enum, default_value_t = MethodArg::Mss)]
     method: MethodArg,
-    /// How long method best looks for a clump
+    /// How long methods best and inscribed look for a clump
     #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
     effort: EffortArg,
     /// Stop at this mismatch D, counted on the method's own grid: the D that is measured on the
@@ -96,6 +96,8 @@ enum MethodArg {
     Best,
     /// Spheres fitted to the surface (paper of Price, Murariu and Morrison); finds its own number
     SurfaceFit,
+    /// Most coverage with no sphere beyond the surface
+    Inscribed,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -230,6 +232,7 @@ impl Args {
                 MethodArg::Mss => Method::Mss,
                 MethodArg::Best => Method::Best,
                 MethodArg::SurfaceFit => Method::SurfaceFit,
+                MethodArg::Inscribed => Method::Inscribed,
             },
             effort: match m.effort {
                 EffortArg::Draft => Effort::Draft,

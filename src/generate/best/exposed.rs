@@ -67,47 +67,8 @@ impl Sampler<'_> {
         if !caps_of(ball, others, caps) {
             return Normal::default();
         }
-        let exposed = self.exposed(caps, open);
+        let exposed = exposed(self.directions, caps, open);
         self.sum(ball, open, exposed)
-    }
-
-    /// The exposed directions, and how many; what comes after them is of no meaning.
-    fn exposed(&self, caps: &[Cap], open: &mut [Vec<f32>; 3]) -> usize {
-        let [ox, oy, oz] = open;
-        for v in [&mut *ox, &mut *oy, &mut *oz] {
-            v.clear();
-            v.resize(8 * self.directions.len() + 8, 0.0);
-        }
-        let mut n = 0;
-        for [x, y, z] in self.directions {
-            let mut hidden = 0u32;
-            for c in caps {
-                let dot = *x * c.axis[0] + *y * c.axis[1] + *z * c.axis[2];
-                hidden |= dot.simd_gt(f32x8::splat(c.cos)).to_bitmask();
-                if hidden == 0xff {
-                    break;
-                }
-            }
-            if hidden == 0xff {
-                continue;
-            }
-            let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
-            let (tx, ty, tz) = (&mut ox[n..n + 8], &mut oy[n..n + 8], &mut oz[n..n + 8]);
-            if hidden == 0 {
-                tx.copy_from_slice(&x);
-                ty.copy_from_slice(&y);
-                tz.copy_from_slice(&z);
-                n += 8;
-                continue;
-            }
-            let mut k = 0;
-            for l in 0..8 {
-                (tx[k & 7], ty[k & 7], tz[k & 7]) = (x[l], y[l], z[l]);
-                k += (!hidden >> l & 1) as usize;
-            }
-            n += k;
-        }
-        n
     }
 
     /// Sums over the open directions. Where the field is f, the sample's weight w is that of
@@ -154,6 +115,60 @@ impl Sampler<'_> {
         out.b.iter_mut().zip(&b).for_each(|(to, v)| *to = total(v));
         out
     }
+}
+
+/// The exposed directions, and how many; what comes after them is of no meaning.
+fn exposed(directions: &[[f32x8; 3]], caps: &[Cap], open: &mut [Vec<f32>; 3]) -> usize {
+    let [ox, oy, oz] = open;
+    for v in [&mut *ox, &mut *oy, &mut *oz] {
+        v.clear();
+        v.resize(8 * directions.len() + 8, 0.0);
+    }
+    let mut n = 0;
+    for [x, y, z] in directions {
+        let mut hidden = 0u32;
+        for c in caps {
+            let dot = *x * c.axis[0] + *y * c.axis[1] + *z * c.axis[2];
+            hidden |= dot.simd_gt(f32x8::splat(c.cos)).to_bitmask();
+            if hidden == 0xff {
+                break;
+            }
+        }
+        if hidden == 0xff {
+            continue;
+        }
+        let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
+        let (tx, ty, tz) = (&mut ox[n..n + 8], &mut oy[n..n + 8], &mut oz[n..n + 8]);
+        if hidden == 0 {
+            tx.copy_from_slice(&x);
+            ty.copy_from_slice(&y);
+            tz.copy_from_slice(&z);
+            n += 8;
+            continue;
+        }
+        let mut k = 0;
+        for l in 0..8 {
+            (tx[k & 7], ty[k & 7], tz[k & 7]) = (x[l], y[l], z[l]);
+            k += (!hidden >> l & 1) as usize;
+        }
+        n += k;
+    }
+    n
+}
+
+/// Sum of the exposed directions of `ball` among `others`, and how many there are.
+pub(super) fn outward<'b>(
+    ball: &Ball,
+    others: impl Iterator<Item = &'b Ball>,
+    directions: &[[f32x8; 3]],
+    scratch: &mut Scratch,
+) -> ([f32; 3], f32) {
+    let Scratch { caps, open } = scratch;
+    if !caps_of(ball, others, caps) {
+        return ([0.0; 3], 0.0);
+    }
+    let count = exposed(directions, caps, open);
+    (open.each_ref().map(|o| o.iter().take(count).sum()), count as f32)
 }
 
 /// The caps of `ball` that `others` hide, the most hiding first; false when one hides it all.

@@ -15,6 +15,7 @@ mod effort;
 mod exposed;
 mod field;
 mod greedy;
+pub(super) mod inscribed;
 mod medial;
 mod moves;
 mod near;
