@@ -3,87 +3,133 @@
 use super::dexels::Seen;
 use wide::f32x8;
 
-/// Chords of one row of columns, sorted by their lower ends in each column.
+/// Chords of one row of columns.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Row {
     counts: Vec<u32>,
-    /// Ends and number of the ball; `most` of them for each column.
-    chords: Vec<(f32, f32, u32)>,
+    /// In each column, disjoint ascending intervals; `most` places for each.
+    joined: Vec<[f32; 2]>,
+    /// In each column, the ends of chords by their lower ends, and the balls' numbers.
+    single: Vec<(f32, f32, u32)>,
     most: usize,
     touching: Vec<u32>,
 }
 
 impl Row {
-    /// The chords of columns `from..to` of row `b`.
-    pub(super) fn cut(&mut self, b: usize, [from, to]: [usize; 2], balls: &[Seen], order: &[u32]) {
-        let Row { counts, chords, most, touching } = self;
-        touching.clear();
-        touching.extend(order.iter().filter(|&&i| {
+    /// Gets ready for columns `from..to` of row `b`.
+    fn begin(&mut self, b: usize, [from, to]: [usize; 2], balls: &[Seen], order: &[u32]) {
+        self.touching.clear();
+        self.touching.extend(order.iter().filter(|&&i| {
             let s = &balls[i as usize];
             (b as f32 - s.v).abs() < s.r && s.u + s.r >= from as f32 && s.u - s.r <= to as f32
         }));
-        *most = touching.len();
-        counts.clear();
-        counts.resize(to - from, 0);
-        if chords.len() < *most * (to - from) {
-            chords.resize(*most * (to - from), (0.0, 0.0, 0));
+        self.most = self.touching.len();
+        self.counts.clear();
+        self.counts.resize(to - from, 0);
+    }
+
+    /// The union of the balls in columns `from..to` of row `b`.
+    pub(super) fn join(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
+        self.begin(b, run, balls, order);
+        let Row { counts, joined, most, touching, .. } = self;
+        if joined.len() < *most * counts.len() {
+            joined.resize(*most * counts.len(), [0.0; 2]);
         }
-        let steps = f32x8::new([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
         for &i in touching.iter() {
-            let s = &balls[i as usize];
-            let y = b as f32 - s.v;
-            let q = s.r * s.r - y * y;
-            let half = q.max(0.0).sqrt();
-            let a0 = whole(s.u - half, to).max(from);
-            let a1 = whole(s.u + half, to);
-            let mut a = a0;
-            while a < a1 {
-                let x = steps + (a as f32 - s.u);
-                let h = (f32x8::splat(q) - x * x).fast_max(f32x8::splat(0.0)).sqrt().to_array();
-                for (k, h) in (a - from..a1 - from).zip(h) {
-                    let (lo, hi) = (s.t - h, s.t + h);
-                    let count = counts[k] as usize;
-                    let column = &mut chords[k * *most..k * *most + count + 1];
-                    counts[k] += 1;
-                    let mut at = count;
-                    while at > 0 && column[at - 1].0 > lo {
-                        column[at] = column[at - 1];
-                        at -= 1;
-                    }
-                    column[at] = (lo, hi, i);
-                }
-                a += 8;
-            }
+            chords(b, run, &balls[i as usize], |k, lo, hi| {
+                let first = k * *most;
+                counts[k] = add(&mut joined[first..first + *most], counts[k] as usize, lo, hi);
+            });
         }
     }
 
-    /// The chords of the column `from + k`.
+    /// The chords of each ball in columns `from..to` of row `b`.
+    pub(super) fn cut(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
+        self.begin(b, run, balls, order);
+        let Row { counts, single, most, touching, .. } = self;
+        if single.len() < *most * counts.len() {
+            single.resize(*most * counts.len(), (0.0, 0.0, 0));
+        }
+        for &i in touching.iter() {
+            chords(b, run, &balls[i as usize], |k, lo, hi| {
+                let mut at = counts[k] as usize;
+                let column = &mut single[k * *most..k * *most + at + 1];
+                counts[k] += 1;
+                while at > 0 && column[at - 1].0 > lo {
+                    column[at] = column[at - 1];
+                    at -= 1;
+                }
+                column[at] = (lo, hi, i);
+            });
+        }
+    }
+
+    /// After [`Row::join`], the union in the column `from + k`.
     #[inline(always)]
-    pub(super) fn column(&self, k: usize) -> &[(f32, f32, u32)] {
-        &self.chords[k * self.most..k * self.most + self.counts[k] as usize]
+    pub(super) fn joined(&self, k: usize) -> &[[f32; 2]] {
+        &self.joined[k * self.most..k * self.most + self.counts[k] as usize]
+    }
+
+    /// After [`Row::cut`], the chords of the column `from + k`.
+    #[inline(always)]
+    pub(super) fn single(&self, k: usize) -> &[(f32, f32, u32)] {
+        &self.single[k * self.most..k * self.most + self.counts[k] as usize]
     }
 }
 
-/// Length of the union of `chords`, and of its part in the intervals `inside`.
+/// Calls `f(column less from, lower end, upper end)` for the chords of a ball in a row.
 #[inline(always)]
-pub(super) fn lengths(chords: &[(f32, f32, u32)], inside: &[[f32; 2]]) -> [f32; 2] {
-    let mut out = [0.0f32; 2];
-    let Some(&(mut lo, mut hi, _)) = chords.first() else { return out };
-    let mut add = |lo: f32, hi: f32| {
-        out[0] += hi - lo;
-        for i in inside {
-            out[1] += (hi.min(i[1]) - lo.max(i[0])).max(0.0);
+fn chords(b: usize, [from, to]: [usize; 2], s: &Seen, mut f: impl FnMut(usize, f32, f32)) {
+    let y = b as f32 - s.v;
+    let q = s.r * s.r - y * y;
+    let half = q.max(0.0).sqrt();
+    let a1 = whole(s.u + half, to);
+    let mut a = whole(s.u - half, to).max(from);
+    let steps = f32x8::new([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+    while a < a1 {
+        let x = steps + (a as f32 - s.u);
+        let h = (f32x8::splat(q) - x * x).fast_max(f32x8::splat(0.0)).sqrt().to_array();
+        for (k, h) in (a - from..a1 - from).zip(h) {
+            f(k, s.t - h, s.t + h);
         }
-    };
-    for &(from, to, _) in &chords[1..] {
-        if from <= hi {
-            hi = hi.max(to);
-        } else {
-            add(lo, hi);
-            (lo, hi) = (from, to);
+        a += 8;
+    }
+}
+
+/// Joins an interval to the first `count` of `column`; returns how many there are then.
+#[inline(always)]
+fn add(column: &mut [[f32; 2]], count: usize, mut lo: f32, mut hi: f32) -> u32 {
+    // The first that does not end before, and the first that begins after.
+    let mut first = count;
+    while first > 0 && column[first - 1][1] >= lo {
+        first -= 1;
+    }
+    let mut last = first;
+    while last < count && column[last][0] <= hi {
+        lo = lo.min(column[last][0]);
+        hi = hi.max(column[last][1]);
+        last += 1;
+    }
+    if last == first {
+        column.copy_within(first..count, first + 1);
+        column[first] = [lo, hi];
+        return count as u32 + 1;
+    }
+    column[first] = [lo, hi];
+    column.copy_within(last..count, first + 1);
+    (count - (last - first) + 1) as u32
+}
+
+/// Length of `union`, and of its part in the intervals `inside`.
+#[inline(always)]
+pub(super) fn lengths(union: &[[f32; 2]], inside: &[[f32; 2]]) -> [f32; 2] {
+    let mut out = [0.0f32; 2];
+    for c in union {
+        out[0] += c[1] - c[0];
+        for i in inside {
+            out[1] += (c[1].min(i[1]) - c[0].max(i[0])).max(0.0);
         }
     }
-    add(lo, hi);
     out
 }
 

@@ -30,13 +30,14 @@ impl Lengths {
     }
 }
 
-/// A set of columns: for each of some rows, a run.
+/// A set of columns: runs in rows.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Region {
-    /// First row, and between which columns it lies.
-    first: usize,
-    sides: [f32; 2],
-    runs: Vec<[u32; 2]>,
+    /// Row, first column, and the one after the last; ascending, apart from each other.
+    runs: Vec<[u32; 3]>,
+    /// The box around them: lower and upper ends across the columns, along both axes.
+    low: [f32; 2],
+    high: [f32; 2],
 }
 
 /// What each column holds of a clump.
@@ -58,64 +59,71 @@ pub(super) struct Look {
 impl Region {
     /// All columns.
     pub(super) fn all(&mut self, dexels: &Dexels) {
-        self.first = 0;
-        self.sides = [0.0, dexels.dims[0] as f32];
+        let [na, nb] = dexels.dims;
         self.runs.clear();
-        self.runs.resize(dexels.dims[1], [0, dexels.dims[0] as u32]);
+        self.runs.extend((0..nb as u32).map(|b| [b, 0, na as u32]));
+        (self.low, self.high) = ([0.0; 2], [na as f32, nb as f32]);
     }
 
     /// One column.
     fn one(&mut self, a: usize, b: usize) {
-        self.first = b;
-        self.sides = [a as f32, a as f32];
         self.runs.clear();
-        self.runs.push([a as u32, a as u32 + 1]);
+        self.runs.push([b as u32, a as u32, a as u32 + 1]);
+        self.low = [a as f32, b as f32];
+        self.high = self.low;
     }
 
     /// The columns that any of `balls` touches.
-    pub(super) fn of(&mut self, dexels: &Dexels, balls: impl Iterator<Item = Seen> + Clone) {
-        let (mut low, mut high) = (f32::MAX, f32::MIN);
-        self.sides = [f32::MAX, f32::MIN];
-        for s in balls.clone() {
-            low = low.min(s.v - s.r);
-            high = high.max(s.v + s.r);
-            self.sides = [self.sides[0].min(s.u - s.r), self.sides[1].max(s.u + s.r)];
-        }
-        let [low, high] = [low, high + 1.0].map(|v| whole(v, dexels.dims[1]));
-        self.first = low;
-        self.runs.clear();
-        self.runs.resize(high.saturating_sub(low), [u32::MAX, 0]);
+    pub(super) fn of(&mut self, dexels: &Dexels, balls: impl Iterator<Item = Seen>) {
+        let runs = &mut self.runs;
+        runs.clear();
+        (self.low, self.high) = ([f32::MAX; 2], [f32::MIN; 2]);
         for s in balls {
-            let [b0, b1] = [s.v - s.r, s.v + s.r + 1.0].map(|v| whole(v, dexels.dims[1]));
+            for (k, x) in [s.u, s.v].into_iter().enumerate() {
+                self.low[k] = self.low[k].min(x - s.r);
+                self.high[k] = self.high[k].max(x + s.r);
+            }
+            let [b0, b1] = [s.v - s.r, s.v + s.r].map(|v| whole(v, dexels.dims[1]));
             for b in b0..b1 {
                 let y = b as f32 - s.v;
-                let q = s.r * s.r - y * y;
-                if q > 0.0 {
-                    let half = q.sqrt();
-                    let run = &mut self.runs[b - low];
-                    run[0] = run[0].min(whole(s.u - half, dexels.dims[0]) as u32);
-                    run[1] = run[1].max(whole(s.u + half + 1.0, dexels.dims[0]) as u32);
+                let half = (s.r * s.r - y * y).max(0.0).sqrt();
+                let [a0, a1] = [s.u - half, s.u + half].map(|u| whole(u, dexels.dims[0]) as u32);
+                if a0 < a1 {
+                    runs.push([b as u32, a0, a1]);
                 }
             }
         }
+        runs.sort_unstable();
+        let mut kept = 0;
+        for k in 0..runs.len() {
+            let run = runs[k];
+            if kept > 0 && runs[kept - 1][0] == run[0] && run[1] <= runs[kept - 1][2] {
+                runs[kept - 1][2] = runs[kept - 1][2].max(run[2]);
+            } else {
+                runs[kept] = run;
+                kept += 1;
+            }
+        }
+        runs.truncate(kept);
     }
 
     /// Numbers of its rows.
-    pub(super) fn numbers(&self) -> std::ops::Range<usize> {
-        self.first..self.first + self.runs.len()
+    pub(super) fn rows(&self) -> impl Iterator<Item = usize> {
+        self.runs.chunk_by(|x, y| x[0] == y[0]).filter_map(|r| r.first()).map(|r| r[0] as usize)
     }
 
-    /// Rows with their runs.
-    fn rows(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
-        self.runs.iter().enumerate().map(|(k, r)| (self.first + k, r.map(|a| a as usize)))
+    /// Rows with a run of columns.
+    fn runs(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
+        self.runs.iter().map(|&[b, from, to]| (b as usize, [from as usize, to as usize]))
     }
 
     /// Whether a ball's box may meet it.
     fn may_meet(&self, s: &Seen) -> bool {
-        s.v + s.r >= self.first as f32
-            && s.v - s.r <= (self.first + self.runs.len()) as f32
-            && s.u + s.r >= self.sides[0] - 1.0
-            && s.u - s.r <= self.sides[1] + 1.0
+        let [u, v] = [s.u, s.v];
+        u + s.r >= self.low[0]
+            && u - s.r <= self.high[0]
+            && v + s.r >= self.low[1]
+            && v - s.r <= self.high[1]
     }
 }
 
@@ -129,13 +137,10 @@ impl Cover {
     /// Takes over what the last [`Look::change`] found.
     pub(super) fn take(&mut self, dexels: &Dexels, look: &Look) {
         let mut fresh = look.fresh.iter();
-        for (b, [from, to]) in look.region.rows() {
-            if from < to {
-                let first = b * dexels.dims[0];
-                for (old, new) in self.columns[first + from..first + to].iter_mut().zip(&mut fresh)
-                {
-                    *old = *new;
-                }
+        for (b, [from, to]) in look.region.runs() {
+            let first = b * dexels.dims[0];
+            for (old, new) in self.columns[first + from..first + to].iter_mut().zip(&mut fresh) {
+                *old = *new;
             }
         }
     }
@@ -163,15 +168,12 @@ impl Look {
         fresh.clear();
         sort(order, region, balls);
         let mut sum = Lengths::default();
-        for (b, [from, to]) in region.rows() {
-            if from >= to {
-                continue;
-            }
-            row.cut(b, [from, to], balls, order);
+        for (b, [from, to]) in region.runs() {
+            row.join(b, [from, to], balls, order);
             let first = b * dexels.dims[0] + from;
             let mut part = [0.0f32; 2];
             for (k, old) in cover.columns[first..first + (to - from)].iter().enumerate() {
-                let new = lengths(row.column(k), dexels.column(first + k));
+                let new = lengths(row.joined(k), dexels.column(first + k));
                 part[0] += new[0] - old[0];
                 part[1] += new[1] - old[1];
                 fresh.push(new);
@@ -192,15 +194,12 @@ impl Look {
     ) {
         let Look { region, row, order, .. } = self;
         sort(order, region, balls);
-        for (b, [from, to]) in region.rows() {
-            if from >= to {
-                continue;
-            }
+        for (b, [from, to]) in region.runs() {
             row.cut(b, [from, to], balls, order);
             let first = b * dexels.dims[0] + from;
             for k in 0..to - from {
                 let inside = dexels.column(first + k);
-                single(row.column(k), |ball, lo, hi| {
+                single(row.single(k), |ball, lo, hi| {
                     let both: f32 =
                         inside.iter().map(|i| (hi.min(i[1]) - lo.max(i[0])).max(0.0)).sum();
                     let of = &mut out[ball as usize];
@@ -222,10 +221,10 @@ impl Look {
         out.clear();
         self.region.one(a, b);
         sort(&mut self.order, &self.region, balls);
-        self.row.cut(b, [a, a + 1], balls, &self.order);
+        self.row.join(b, [a, a + 1], balls, &self.order);
         for i in dexels.column(a + dexels.dims[0] * b) {
             let mut low = i[0];
-            for &(lo, hi, _) in self.row.column(0) {
+            for &[lo, hi] in self.row.joined(0) {
                 if lo > low && low < i[1] {
                     out.push([low, lo.min(i[1])]);
                 }

@@ -20,7 +20,7 @@ fn clump(n: usize, seed: u64) -> Vec<Ball> {
 #[test]
 fn the_mismatch_is_that_of_the_quality_figures() {
     for body in bodies() {
-        let dexels = body.dexels(192);
+        let dexels = body.dexels(30_000);
         let mut cover = Cover::new(&dexels).unwrap();
         for n in [1, 3, 10, 40] {
             // Within the room that columns have.
@@ -47,7 +47,7 @@ fn the_mismatch_is_that_of_the_quality_figures() {
 #[test]
 fn changes_add_up_to_whole_sums() {
     for body in bodies() {
-        let dexels = body.dexels(64);
+        let dexels = body.dexels(3000);
         let (mut cover, mut other) = (Cover::new(&dexels).unwrap(), Cover::new(&dexels).unwrap());
         let mut seen: Vec<Seen> = clump(25, 4).iter().map(|b| dexels.seen(b)).collect();
         let fresh: Vec<Seen> = clump(60, 5).iter().map(|b| dexels.seen(b)).collect();
@@ -72,7 +72,7 @@ fn changes_add_up_to_whole_sums() {
 #[test]
 fn what_a_ball_covers_alone_is_lost_without_it() {
     for body in bodies() {
-        let dexels = body.dexels(64);
+        let dexels = body.dexels(3000);
         let mut cover = Cover::new(&dexels).unwrap();
         let seen: Vec<Seen> = clump(30, 8).iter().map(|b| dexels.seen(b)).collect();
         let mut look = Look::default();
@@ -94,7 +94,7 @@ fn what_a_ball_covers_alone_is_lost_without_it() {
 #[test]
 fn gaps_are_what_is_missing() {
     for body in bodies() {
-        let dexels = body.dexels(64);
+        let dexels = body.dexels(3000);
         let mut cover = Cover::new(&dexels).unwrap();
         let seen: Vec<Seen> = clump(20, 6).iter().map(|b| dexels.seen(b)).collect();
         let mut look = Look::default();

@@ -7,13 +7,15 @@ use super::random::Random;
 use crate::error::{Error, Result, reserve};
 use crate::math::Vec3;
 use crate::run::Pool;
-use crate::shape::Body;
-use crate::solid::Columns;
 use crate::solid::columns::Lattice;
+use crate::solid::{Columns, Grid, Solid};
 
 /// Room around the target's box on the sampled axes, as a part of its longer edge there: what
 /// balls reach beyond it is not seen.
 const ROOM: f64 = 0.2;
+
+/// Most columns along an edge of the lattice.
+const MOST: f64 = 16_384.0;
 
 /// The target's columns.
 pub(super) struct Dexels {
@@ -39,22 +41,49 @@ pub(super) struct Seen {
     pub r: f32,
 }
 
+/// Area of the cells inside, seen along an axis.
+fn shadow(grid: &Grid, inside: &[u8], axis: usize) -> f64 {
+    let stride = [1, grid.dims[0], grid.dims[0] * grid.dims[1]];
+    let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+    let mut cells = 0u32;
+    for j in 0..grid.dims[v] {
+        for i in 0..grid.dims[u] {
+            let first = i * stride[u] + j * stride[v];
+            let column = inside[first..].iter().step_by(stride[axis]).take(grid.dims[axis]);
+            cells += u32::from(column.into_iter().any(|&c| c != 0));
+        }
+    }
+    f64::from(cells.max(1)) * grid.spacing[u] * grid.spacing[v]
+}
+
 impl Dexels {
-    /// About `n` columns along the longer edge of the target's box across its shortest.
-    pub(super) fn new(body: &Body, low: &Vec3, high: &Vec3, n: usize, pool: &Pool) -> Result<Self> {
+    /// So many columns that about `wanted` meet the target, along its box's shortest edge.
+    pub(super) fn new(
+        solid: &Solid,
+        [low, high]: &[Vec3; 2],
+        wanted: usize,
+        pool: &Pool,
+    ) -> Result<Self> {
         let edges = high - low;
         let axis = (0..3).rev().min_by(|&i, &j| edges[i].total_cmp(&edges[j])).unwrap_or(2);
         let sampled = [(axis + 1) % 3, (axis + 2) % 3];
         let width = edges[sampled[0]].max(edges[sampled[1]]) * (1.0 + 2.0 * ROOM);
         let middle = sampled.map(|a| 0.5 * (low[a] + high[a]));
-        let n = (n as f64 * (1.0 + 2.0 * ROOM)).ceil() as usize;
+        let shadow = shadow(solid.grid(), solid.inside(), axis);
+        let n = width * (wanted as f64 / shadow).sqrt();
+        if !(1.0..=MOST).contains(&n) {
+            return Err(Error::TooLarge(format!(
+                "{wanted} columns through the target are {n:.0} along an edge, more than {MOST}"
+            )));
+        }
+        let n = n.ceil() as usize;
         let lattice = Lattice::slanted(
             axis,
             n,
             middle.map(|m| m - 0.5 * width),
             middle.map(|m| m + 0.5 * width),
         );
-        let columns = Columns::on(body, lattice, pool)?;
+        let columns = Columns::on(solid.body(), lattice, pool)?;
         let step = width / n as f64;
         let too_many = || Error::TooLarge("the columns have too many intervals".into());
         let mut starts = reserve("columns", columns.starts.len())?;
@@ -80,7 +109,6 @@ impl Dexels {
     }
 
     /// Volume of a unit of length in one column, unit frame.
-    #[cfg(test)]
     pub(super) fn cell(&self) -> f64 {
         self.step.powi(3)
     }

@@ -22,7 +22,7 @@ pub(super) struct Plan {
     /// Directions and iterations of the first refinement.
     pub directions: usize,
     pub iterations: usize,
-    /// Columns along the longer edge.
+    /// Columns that meet the target.
     pub columns: usize,
     /// Moves tried.
     pub moves: usize,
@@ -34,13 +34,14 @@ impl Effort {
     /// The counts for `n` spheres.
     pub(super) fn plan(self, n: usize) -> Plan {
         let wide = |least: usize, each: usize| least.max(each.saturating_mul(n));
+        let add = |base: usize, each: usize| base.saturating_add(each.saturating_mul(n));
         match self {
             Effort::Draft => Plan {
                 points: wide(1500, 24),
                 candidates: wide(300, 5),
                 directions: 48,
                 iterations: 60,
-                columns: 48,
+                columns: add(1000, 10),
                 moves: 0,
                 polish: [0, 0],
             },
@@ -49,8 +50,8 @@ impl Effort {
                 candidates: wide(800, 6),
                 directions: 96,
                 iterations: 100,
-                columns: 64,
-                moves: wide(160, 1),
+                columns: add(1500, 15),
+                moves: 160 + n / 4,
                 polish: [192, 40],
             },
             Effort::Thorough => Plan {
@@ -58,8 +59,8 @@ impl Effort {
                 candidates: wide(1500, 6),
                 directions: 96,
                 iterations: 100,
-                columns: 96,
-                moves: wide(6000, 10),
+                columns: add(4000, 60),
+                moves: add(4000, 4),
                 polish: [384, 60],
             },
         }

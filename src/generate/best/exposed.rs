@@ -47,7 +47,7 @@ pub(super) struct Scratch {
 
 /// What all spheres of an iteration have in common.
 pub(super) struct Sampler<'a> {
-    pub field: &'a Field<'a>,
+    pub field: &'a Field,
     /// Directions, turned.
     pub directions: &'a [[f32x8; 3]],
     pub weights: Weights,

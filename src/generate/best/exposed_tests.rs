@@ -6,11 +6,12 @@ use super::super::directions::Directions;
 use super::super::random::Random;
 use super::super::test_bodies::{Bodies, bodies};
 use super::*;
+use crate::run::Pool;
 
 /// Some overlapping balls about the middle of the body.
 fn clump(body: &Bodies, n: usize, seed: u64) -> Vec<Ball> {
     let mut random = Random::new(seed, 1);
-    let (low, high) = body.bounds;
+    let [low, high] = body.bounds;
     (0..n)
         .map(|_| Ball {
             center: [0, 1, 2].map(|a| {
@@ -63,7 +64,7 @@ fn slow(sampler: &Sampler, i: usize, balls: &[Ball]) -> (Normal, usize) {
 #[test]
 fn sums_are_those_of_the_slow_transcription() {
     for body in bodies() {
-        let field = Field::new(body.solid.grid(), &body.distance);
+        let field = Field::new(body.solid.grid(), &body.distance, &Pool::serial()).unwrap();
         let directions = Directions::new(96);
         let mut random = Random::new(7, 7);
         let mut turned = Vec::new();
@@ -97,7 +98,7 @@ fn sums_are_those_of_the_slow_transcription() {
 #[test]
 fn a_ball_in_another_is_hidden_and_hides_nothing() {
     let body = &bodies()[0];
-    let field = Field::new(body.solid.grid(), &body.distance);
+    let field = Field::new(body.solid.grid(), &body.distance, &Pool::serial()).unwrap();
     let directions = Directions::new(48);
     let mut turned = Vec::new();
     directions.turned(&Random::new(1, 2).rotation(), &mut turned);
@@ -115,8 +116,8 @@ fn a_ball_in_another_is_hidden_and_hides_nothing() {
 #[test]
 fn pulls_are_the_slopes_of_volumes() {
     for body in bodies() {
-        let field = Field::new(body.solid.grid(), &body.distance);
-        let dexels = body.dexels(400);
+        let field = Field::new(body.solid.grid(), &body.distance, &Pool::serial()).unwrap();
+        let dexels = body.dexels(100_000);
         let directions = Directions::new(40_000);
         let mut turned = Vec::new();
         directions.turned(&Random::new(5, 5).rotation(), &mut turned);

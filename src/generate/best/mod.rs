@@ -50,21 +50,22 @@ use state::{Ground, State};
 const MOST: usize = 100_000;
 /// Least radius, as a part of the body's size.
 const LEAST: f64 = 0.002;
-/// Huber's width at the first and the last iteration, as parts of the body's size.
+/// Huber's width at the first iteration, as a part of the body's size, for so many balls; of more
+/// balls, which are smaller, less.
 const WIDE: f32 = 0.03;
-const NARROW: f32 = 0.0015;
+const FEW: f32 = 30.0;
 
 /// Makes a clump.
 pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let n = check(options)?;
     run.check(0.0, "measuring the distances of cells")?;
-    let field = Field::new(solid.grid(), solid.distance(run)?);
-    let (low, high) = bounds(solid)?;
+    let field = Field::new(solid.grid(), solid.distance(run)?, run.pool())?;
+    let bounds = bounds(solid)?;
     let plan = options.effort.plan(n);
-    let dexels = Dexels::new(solid.body(), &low, &high, plan.columns, run.pool())?;
+    let dexels = Dexels::new(solid, &bounds, plan.columns, run.pool())?;
     run.count(|c| {
         c.columns += (dexels.dims[0] * dexels.dims[1]) as u64;
-        c.peak_bytes = c.peak_bytes.max(solid.bytes() + dexels.bytes());
+        c.peak_bytes = c.peak_bytes.max(solid.bytes() + field.bytes() + dexels.bytes());
     });
     // The length for which the widths were found: a body of a fifth of its box's cube has 1.
     let size = (solid.unit_moments().volume / 0.2).cbrt();
@@ -74,14 +75,7 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
     };
     let mut random = Random::new(run.seed(), 0);
     let mut balls = seeds::seeds(&field, &dexels, &plan, n, &radii, size as f32, &mut random)?;
-    let all: Vec<u32> = (0..n as u32).collect();
-    let directions = Directions::new(plan.directions);
-    let task = Task { field: &field, directions: &directions, weights: Weights::at(0.0), radii };
-    let schedule = Schedule {
-        iterations: plan.iterations,
-        from: WIDE * size as f32,
-        to: NARROW * size as f32,
-    };
+    let mut look = Look::default();
     let mut stopped = Stopped::Spheres;
     let mut done = 0.0;
     let mut go = || {
@@ -93,10 +87,32 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
         }
         stopped == Stopped::Spheres
     };
+    // Least squares of distances first; then the volume between the surfaces.
+    let directions = Directions::new(plan.directions);
+    let all: Vec<u32> = (0..n as u32).collect();
+    let mut refiner = Refiner::default();
     let shared = (n >= SHARED).then(|| run.pool());
-    Refiner::default().refine(&task, &schedule, &mut balls, &all, &mut random, shared, &mut go);
     let ground = Ground { field: &field, dexels: &dexels, radii, size: size as f32 };
-    let mut state = State::new(ground, balls, &mut Look::default())?;
+    let mut task =
+        Task { field: &field, directions: &directions, weights: Weights::at(0.0), radii };
+    let wide = WIDE * size as f32 * (FEW / (n as f32).max(FEW)).cbrt();
+    let first = plan.iterations / 2;
+    let schedule = Schedule { iterations: first, from: wide, to: wide / 6.0 };
+    refiner.refine(&task, &schedule, &mut balls, &all, &mut random, shared, &mut go);
+    let mut state = State::new(ground, balls, &mut look)?;
+    state.measure_width(refiner.area);
+    if go() {
+        task.weights = state.weights();
+        let schedule = Schedule {
+            iterations: plan.iterations - first,
+            from: 2.0 * state.width,
+            to: 0.3 * state.width,
+        };
+        let balls = &mut state.balls;
+        refiner.refine(&task, &schedule, balls, &all, &mut random, shared, &mut go);
+        state.renew(&mut look);
+        state.measure_width(refiner.area);
+    }
     let mut search = Search::new(&mut state, run.seed(), run.pool());
     let batches = plan.moves.div_ceil(BATCH);
     for k in 0..batches {
@@ -111,12 +127,7 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
         search.batch();
     }
     if stopped == Stopped::Spheres && plan.polish[1] > 0 {
-        let schedule = Schedule {
-            iterations: plan.polish[1],
-            from: 0.004 * size as f32,
-            to: 0.0002 * size as f32,
-        };
-        search.settle(&schedule, &Directions::new(plan.polish[0]));
+        search.polish(plan.polish);
     }
     let d = state.mismatch();
     let mut balls = state.balls;
@@ -163,16 +174,16 @@ fn check(o: &GenerateOptions) -> Result<usize> {
 }
 
 /// Bounding box of the body.
-fn bounds(solid: &Solid) -> Result<(Vec3, Vec3)> {
+fn bounds(solid: &Solid) -> Result<[Vec3; 2]> {
     let empty = || Error::Empty("the target has no vertex and no cell".into());
     match solid.body() {
         Body::Voxels(v) => {
             let dims = Vec3::from(v.dims.map(|d| d as f64));
-            Ok((Vec3::zeros(), dims.component_mul(&v.spacing)))
+            Ok([Vec3::zeros(), dims.component_mul(&v.spacing)])
         }
         Body::Mesh(m) => {
             let first = m.vertices.first().ok_or_else(empty)?;
-            Ok(m.vertices.iter().fold((*first, *first), |(l, h), v| (l.inf(v), h.sup(v))))
+            Ok(m.vertices.iter().fold([*first, *first], |[l, h], v| [l.inf(v), h.sup(v)]))
         }
     }
 }

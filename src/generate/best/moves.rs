@@ -89,7 +89,7 @@ impl Mover {
         of: &mut Vec<u32>,
         random: &mut Random,
     ) -> bool {
-        let size = state.ground.size;
+        let width = state.width;
         if random.unit() < SHAKEN {
             let ball = &mut self.trial[i];
             for x in &mut ball.center {
@@ -103,13 +103,13 @@ impl Mover {
             }
         }
         self.around(state, i, of);
-        let schedule = Schedule { iterations: 16, from: 0.02 * size, to: 0.002 * size };
+        let schedule = Schedule { iterations: 16, from: 4.0 * width, to: 0.4 * width };
         self.refine(state, &schedule, &fans.some, of, random);
         let hope = HOPE * state.left() * of.len() as f64 / state.balls.len() as f64;
         if self.cost(state, of) > hope {
             return false;
         }
-        let schedule = Schedule { iterations: 12, from: 0.004 * size, to: 0.001 * size };
+        let schedule = Schedule { iterations: 12, from: 0.8 * width, to: 0.2 * width };
         self.refine(state, &schedule, &fans.many, of, random);
         self.cost(state, of) < 0.0
     }
@@ -136,7 +136,7 @@ impl Mover {
     fn insert(&mut self, state: &State, fans: &Fans, i: usize, random: &mut Random) -> f64 {
         let (field, size, radii) = (state.ground.field, state.ground.size, state.ground.radii);
         let mut best = (f64::MAX, state.balls[i]);
-        let schedule = Schedule { iterations: 4, from: 0.02 * size, to: 0.005 * size };
+        let schedule = Schedule { iterations: 4, from: 4.0 * state.width, to: state.width };
         for _ in 0..PLACES {
             let Some(p) = state.gap(random, &mut self.look, &mut self.gaps) else { continue };
             let center = medial::ball(field, p, size).center;

@@ -40,7 +40,7 @@ pub(super) struct Radii {
 /// What does not change while balls are refined.
 #[derive(Clone, Copy)]
 pub(super) struct Task<'a> {
-    pub field: &'a Field<'a>,
+    pub field: &'a Field,
     pub directions: &'a Directions,
     pub weights: Weights,
     pub radii: Radii,
@@ -54,7 +54,9 @@ pub(super) struct Refiner {
     turned: Vec<[f32x8; 3]>,
     /// Change of centre and radius of each ball in the last iteration.
     speed: Vec<[f32; 4]>,
-    step: Vec<[f32; 4]>,
+    step: Vec<[f32; 5]>,
+    /// Exposed area at the last iteration.
+    pub area: f64,
 }
 
 impl Refiner {
@@ -71,11 +73,11 @@ impl Refiner {
         pool: Option<&Pool>,
         go: &mut dyn FnMut() -> bool,
     ) {
-        let Refiner { near, scratch, turned, speed, step } = self;
+        let Refiner { near, scratch, turned, speed, step, area } = self;
         speed.clear();
         speed.resize(of.len(), [0.0; 4]);
         step.clear();
-        step.resize(of.len(), [0.0; 4]);
+        step.resize(of.len(), [0.0; 5]);
         let sum: f64 = of.iter().map(|&i| f64::from(balls[i as usize].radius)).sum();
         let slack = SLACK * (sum / of.len().max(1) as f64) as f32;
         let mut moved = f32::MAX;
@@ -92,9 +94,11 @@ impl Refiner {
                 Sampler { field: task.field, directions: turned, weights: task.weights, width };
             let one = |k: usize, scratch: &mut Scratch| {
                 let others = near.of(k).iter().map(|&j| &balls[j as usize]);
-                let normal = sampler.normal(&balls[of[k] as usize], others, scratch);
-                solve(&normal, DAMPING * task.directions.len() as f64)
-                    .map(|x| ((STEP * x) as f32).clamp(-2.0 * width, 2.0 * width))
+                let ball = &balls[of[k] as usize];
+                let normal = sampler.normal(ball, others, scratch);
+                let [x, y, z, r] = solve(&normal, DAMPING * task.directions.len() as f64)
+                    .map(|x| ((STEP * x) as f32).clamp(-2.0 * width, 2.0 * width));
+                [x, y, z, r, ball.radius * ball.radius * normal.exposed as f32]
             };
             match pool {
                 Some(pool) => pool.chunks_mut(step, CHUNK, |c, steps| {
@@ -123,6 +127,8 @@ impl Refiner {
                 most = most.max((x * x + y * y + z * z).sqrt() + r.abs());
             }
             moved += most;
+            let sum: f64 = step.iter().map(|s| f64::from(s[4])).sum();
+            *area = 4.0 * std::f64::consts::PI * sum / task.directions.len() as f64;
             if !go() {
                 break;
             }

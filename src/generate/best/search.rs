@@ -15,8 +15,9 @@ use std::sync::{Mutex, PoisonError};
 pub(super) const BATCH: usize = 8;
 /// Part of the moves that take the ball worth least.
 const CHEAPEST: f64 = 0.85;
-/// All balls are refined after so many moves that helped.
+/// All balls are refined after so many moves that helped, and for so many balls one more.
 const HELPED: u64 = 12;
+const HELPED_OF: usize = 16;
 /// From so many samples of an iteration on, threads share it.
 const SHARED: usize = 16_384;
 
@@ -32,6 +33,8 @@ pub(super) struct Search<'s, 'a> {
     seed: u64,
     moves: u64,
     helped: u64,
+    /// So many moves that helped before all balls are refined.
+    enough: u64,
 }
 
 impl<'s, 'a> Search<'s, 'a> {
@@ -47,6 +50,7 @@ impl<'s, 'a> Search<'s, 'a> {
             seed,
             moves: 0,
             helped: 0,
+            enough: HELPED,
         }
     }
 
@@ -69,11 +73,9 @@ impl<'s, 'a> Search<'s, 'a> {
             if self.state.take(&moved.of, &moved.balls, &mut self.look) {
                 changed.extend(&moved.of);
                 self.helped += 1;
-                if self.helped.is_multiple_of(HELPED) {
-                    let from = 0.006 * self.state.ground.size;
-                    let schedule = Schedule { iterations: 20, from, to: 0.2 * from };
-                    let many = Directions::new(192);
-                    self.settle(&schedule, &many);
+                if self.helped >= self.enough {
+                    self.enough += HELPED + (self.state.balls.len() / HELPED_OF) as u64;
+                    self.settle(20, [1.2, 0.25], &Directions::new(192));
                     break;
                 }
             }
@@ -102,8 +104,14 @@ impl<'s, 'a> Search<'s, 'a> {
         best.1
     }
 
-    /// Refines all balls; the clump stays as it was where that does not help.
-    pub(super) fn settle(&mut self, schedule: &Schedule, directions: &Directions) {
+    /// The last refinement, with this many directions and iterations.
+    pub(super) fn polish(&mut self, [directions, iterations]: [usize; 2]) {
+        self.settle(iterations, [0.8, 0.04], &Directions::new(directions));
+    }
+
+    /// Refines all balls, with Huber's widths at the first and last iteration in units of the
+    /// state's; the clump stays as it was where that does not help.
+    fn settle(&mut self, iterations: usize, [from, to]: [f32; 2], directions: &Directions) {
         let state = &mut *self.state;
         let all: Vec<u32> = (0..state.balls.len() as u32).collect();
         let before = (state.mismatch(), state.balls.clone());
@@ -113,14 +121,17 @@ impl<'s, 'a> Search<'s, 'a> {
             weights: state.weights(),
             radii: state.ground.radii,
         };
+        let schedule = Schedule { iterations, from: from * state.width, to: to * state.width };
         let shared = (all.len() * directions.len() >= SHARED).then_some(self.pool);
         let balls = &mut state.balls;
         let random = &mut self.random;
-        self.refiner.refine(&task, schedule, balls, &all, random, shared, &mut || true);
+        self.refiner.refine(&task, &schedule, balls, &all, random, shared, &mut || true);
         state.renew(&mut self.look);
         if state.mismatch() >= before.0 {
             state.balls = before.1;
             state.renew(&mut self.look);
+        } else {
+            state.measure_width(self.refiner.area);
         }
     }
 }

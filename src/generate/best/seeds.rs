@@ -35,12 +35,10 @@ pub(super) fn seeds(
     let mut points = Points::new(dexels.points(plan.points, random)?);
     let mut balls = reserve("balls", n)?;
     balls.extend(choose(&mut points, &candidates, n).into_iter().map(|i| candidates[i]));
-    // Where all points are held before there are enough: balls about any points.
+    // Where all points are held before there are enough: balls about more of the medial axis.
     let more = n - balls.len();
-    for p in dexels.points(more, random)? {
-        let ball = medial::ball(field, p, size);
-        let smaller = (0.3 + 0.7 * random.unit()) as f32;
-        balls.push(fit(Ball { center: p, radius: ball.radius * smaller }));
-    }
+    balls.extend(
+        dexels.points(more, random)?.into_iter().map(|p| fit(medial::ball(field, p, size))),
+    );
     Ok(balls)
 }

@@ -13,10 +13,10 @@ use crate::error::{Result, filled, reserve};
 /// What all parts of the search read.
 #[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
-    pub field: &'a Field<'a>,
+    pub field: &'a Field,
     pub dexels: &'a Dexels,
     pub radii: Radii,
-    /// Length for which Huber's widths are given.
+    /// A length of the order of the body.
     pub size: f32,
 }
 
@@ -35,6 +35,9 @@ pub(super) struct State<'a> {
     rows: Vec<f64>,
     /// Changes so far.
     pub version: u64,
+    /// How far the surfaces of clump and target are apart in the mean: the measure of Huber's
+    /// widths.
+    pub width: f32,
 }
 
 impl<'a> State<'a> {
@@ -50,6 +53,7 @@ impl<'a> State<'a> {
             tried: filled("moves of balls", n, 0)?,
             rows: reserve("rows of columns", ground.dexels.dims[1])?,
             version: 0,
+            width: ground.size,
         };
         state.renew(look);
         Ok(state)
@@ -74,6 +78,14 @@ impl<'a> State<'a> {
     pub(super) fn left(&self) -> f64 {
         let d = self.mismatch();
         self.lengths.cost(d) + (1.0 + d) * self.ground.dexels.target
+    }
+
+    /// The width, from the clump's exposed area.
+    pub(super) fn measure_width(&mut self, area: f64) {
+        let volume = self.left() * self.ground.dexels.cell();
+        let least = 1e-5 * f64::from(self.ground.size);
+        let width = if area > 0.0 { volume / area } else { 0.0 };
+        self.width = width.max(least) as f32;
     }
 
     /// By how much the cost would rise without ball `i`.
@@ -111,7 +123,7 @@ impl<'a> State<'a> {
         self.cover.take(dexels, look);
         look.alone(dexels, &self.seen, -1.0, &mut self.alone);
         look.alone(dexels, &seen, 1.0, &mut self.alone);
-        for b in look.region.numbers() {
+        for b in look.region.rows() {
             self.rows[b] = self.row(b);
         }
         for (&j, ball) in of.iter().zip(balls) {

@@ -10,13 +10,12 @@ use crate::solid::{Solid, SolidOptions};
 pub(super) struct Bodies {
     pub solid: Solid,
     pub distance: Vec<f32>,
-    pub bounds: (Vec3, Vec3),
+    pub bounds: [Vec3; 2],
 }
 
 impl Bodies {
     pub(super) fn dexels(&self, columns: usize) -> Dexels {
-        let (low, high) = self.bounds;
-        Dexels::new(self.solid.body(), &low, &high, columns, &Pool::serial()).unwrap()
+        Dexels::new(&self.solid, &self.bounds, columns, &Pool::serial()).unwrap()
     }
 }
 
