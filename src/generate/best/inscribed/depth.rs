@@ -8,7 +8,7 @@ use crate::solid::nearest::Surface;
 
 /// The surface, and what balls may be.
 pub(super) struct Depth<'a> {
-    pub field: &'a Field<'a>,
+    pub field: &'a Field,
     pub surface: &'a Surface,
     /// How far balls may reach beyond it.
     pub tolerance: f64,

@@ -8,7 +8,7 @@ pub(super) struct Plan {
     /// Points to be covered and candidate balls of the greedy start.
     pub points: usize,
     pub candidates: usize,
-    /// Columns along the longer edge.
+    /// Columns that meet the target.
     pub columns: usize,
     /// Sweeps of the climb.
     pub sweeps: usize,
@@ -23,21 +23,21 @@ pub(super) fn plan(effort: Effort, n: usize) -> Plan {
         Effort::Draft => Plan {
             points: wide(4000, 64),
             candidates: wide(1000, 12),
-            columns: 64,
+            columns: 2700,
             sweeps: 8,
             swaps: 0,
         },
         Effort::Normal => Plan {
             points: wide(16_000, 64),
             candidates: wide(4000, 24),
-            columns: 96,
+            columns: 6000,
             sweeps: 25,
             swaps: 0,
         },
         Effort::Thorough => Plan {
             points: wide(16_000, 64),
             candidates: wide(16_000, 24),
-            columns: 128,
+            columns: 10_600,
             sweeps: 40,
             swaps: 4 * n,
         },

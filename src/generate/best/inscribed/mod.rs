@@ -36,14 +36,13 @@ pub(in crate::generate) fn inscribed(
 ) -> Result<Clump> {
     let n = check(options)?;
     run.check(0.0, "measuring the distances of cells")?;
-    let field = Field::new(solid.grid(), solid.distance(run)?);
+    let field = Field::new(solid.grid(), solid.distance(run)?, run.pool())?;
     let plan = effort::plan(options.effort, n);
-    let (low, high) = bounds(solid)?;
-    let dexels = Dexels::new(solid.body(), &low, &high, plan.columns, run.pool())?;
+    let dexels = Dexels::new(solid, &bounds(solid)?, plan.columns, run.pool())?;
     let surface = solid.surface(run)?;
     run.count(|c| {
         c.columns += (dexels.dims[0] * dexels.dims[1]) as u64;
-        c.peak_bytes = c.peak_bytes.max(solid.bytes() + dexels.bytes());
+        c.peak_bytes = c.peak_bytes.max(solid.bytes() + field.bytes() + dexels.bytes());
     });
     let size = (solid.unit_moments().volume / 0.2).cbrt();
     let scale = solid.frame().scale;

@@ -21,9 +21,8 @@ fn stone() -> Solid {
 /// Has balls about places by chance climb, and hands them to `f`.
 fn with_balls(solid: &Solid, n: usize, f: impl FnOnce(Climb, Random)) {
     let run = Run::serial();
-    let field = Field::new(solid.grid(), solid.distance(&run).unwrap());
-    let (low, high) = bounds(solid).unwrap();
-    let dexels = Dexels::new(solid.body(), &low, &high, 64, run.pool()).unwrap();
+    let field = Field::new(solid.grid(), solid.distance(&run).unwrap(), run.pool()).unwrap();
+    let dexels = Dexels::new(solid, &bounds(solid).unwrap(), 2700, run.pool()).unwrap();
     let surface = solid.surface(&run).unwrap();
     let depth = Depth { field: &field, surface, tolerance: 0.0, least: 1e-3, size: 1.0 };
     let mut random = Random::new(7, 0);
