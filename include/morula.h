@@ -479,9 +479,9 @@ typedef struct morula_solid_options {
   uint32_t cells;
   /// Edge length of a cell for MORULA_RESOLUTION_CELL_SIZE. Default 0.
   double cell_size;
-  /// Most bytes that the grid's arrays may take together; a tree over the surface (made by the
-  /// first call that needs exact distances) and quality figures are held to what is left.
-  /// Default 2 GiB.
+  /// Most bytes that the grid's arrays may take together, and what tells the inside of an open
+  /// mesh; a tree over the surface (made by the first call that needs exact distances) and
+  /// quality figures are held to what is left. Default 2 GiB.
   uint64_t memory_limit;
   /// Empty cells around the shape, at least 2. Default 4.
   uint32_t padding;

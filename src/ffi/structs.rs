@@ -76,9 +76,9 @@ pub struct morula_solid_options {
     pub cells: u32,
     /// Edge length of a cell for MORULA_RESOLUTION_CELL_SIZE. Default 0.
     pub cell_size: f64,
-    /// Most bytes that the grid's arrays may take together; a tree over the surface (made by the
-    /// first call that needs exact distances) and quality figures are held to what is left.
-    /// Default 2 GiB.
+    /// Most bytes that the grid's arrays may take together, and what tells the inside of an open
+    /// mesh; a tree over the surface (made by the first call that needs exact distances) and
+    /// quality figures are held to what is left. Default 2 GiB.
     pub memory_limit: u64,
     /// Empty cells around the shape, at least 2. Default 4.
     pub padding: u32,

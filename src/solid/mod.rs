@@ -29,8 +29,8 @@ pub struct SolidOptions {
     pub resolution: Resolution,
     /// Empty cells around the shape, at least 2 (Buchele et al. 2026, eq 6).
     pub padding: usize,
-    /// Most bytes that grid arrays may take together; the tree over the surface and the quality
-    /// figures are held to what is left of it.
+    /// Most bytes that grid arrays may take together, and what tells the inside of an open mesh;
+    /// the tree over the surface and the quality figures are held to what is left of it.
     pub memory_limit: u64,
 }
 

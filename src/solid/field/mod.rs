@@ -19,8 +19,7 @@ mod space;
 mod split;
 
 use super::Solid;
-use super::columns::Columns;
-use super::grid::Grid;
+use super::columns::{Columns, Lattice};
 use crate::error::{Result, filled, fits};
 use crate::run::Run;
 use crate::shape::{Body, Mesh};
@@ -46,17 +45,19 @@ fn of_mesh(solid: &Solid, mesh: &Mesh, run: &Run) -> Result<Vec<f32>> {
         return Ok(out);
     }
     let most = bricks::distances(mesh, grid, left - bytes, run, &mut out)?;
-    sign(solid.body(), grid, run, &mut out)?;
+    sign(solid, left - bytes, run, &mut out)?;
     run.count(|c| c.peak_bytes = c.peak_bytes.max(solid.bytes() + bytes + most));
     Ok(out)
 }
 
-/// Turns the distances of cell centres inside to negative ones.
-fn sign(body: &Body, grid: &Grid, run: &Run, out: &mut [f32]) -> Result<()> {
+/// Turns the distances of cell centres inside to negative ones; takes no more than `room` bytes.
+fn sign(solid: &Solid, room: u64, run: &Run, out: &mut [f32]) -> Result<()> {
+    let grid = solid.grid();
     let [nx, ny, nz] = grid.dims;
     let (origin, step) = (grid.origin, grid.spacing);
-    let columns =
-        Columns::new(body, 0, [ny, nz], [origin.y, origin.z], [step.y, step.z], run.pool())?;
+    let lattice = Lattice::straight(0, [ny, nz], [origin.y, origin.z], [step.y, step.z]);
+    let held = solid.bytes() + 4 * out.len() as u64;
+    let columns = Columns::within(solid.body(), lattice, room, held, run)?;
     run.pool().chunks_mut(out, nx, |row, out| {
         for &[lo, hi] in columns.column(row % ny, row / ny) {
             // First centre at or after a place; the guess is a rounding off at most.
