@@ -90,9 +90,14 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_METHOD_BEST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_SURFACE_FIT = 2_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_INSCRIBED = 3_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_METHOD_COVER = 4_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_DRAFT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_NORMAL = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_THOROUGH = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_ENDS_SURFACE = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_ENDS_CURVE = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CANDIDATES_THINNED = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CANDIDATES_ANALYTIC = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_FRAME_INPUT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_FRAME_BODY = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_WANT_NOTHING = 0_c_int32_t
@@ -105,6 +110,7 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_DEADLINE = 3_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_CANCELLED = 4_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_EXHAUSTED = 5_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STOPPED_COVERAGE = 6_c_int32_t
 
   ! ---- structs of morula.h; fill options with the _init functions ----
 
@@ -209,6 +215,11 @@ module morula
     type(c_ptr) :: user = c_null_ptr
     integer(c_int32_t) :: effort = 0_c_int32_t
     integer(c_int32_t) :: reserved = 0_c_int32_t
+    real(c_double) :: coverage = 0.0_c_double
+    integer(c_int32_t) :: ends = 0_c_int32_t
+    integer(c_int32_t) :: candidates = 0_c_int32_t
+    integer(c_int32_t) :: thinning_cells = 0_c_int32_t
+    integer(c_int32_t) :: cells_inside = 0_c_int32_t
   end type morula_clump_options
 
   type, bind(c), public :: morula_overlap

@@ -221,6 +221,10 @@
 /// Most coverage with no sphere beyond the surface.
 #define MORULA_METHOD_INSCRIBED 3
 
+/// Largest inscribed spheres about a thinned skeleton by greedy set cover: none reaches beyond the
+/// surface.
+#define MORULA_METHOD_COVER 4
+
 /// MORULA_METHOD_BEST: milliseconds.
 #define MORULA_EFFORT_DRAFT 0
 
@@ -229,6 +233,18 @@
 
 /// MORULA_METHOD_BEST: seconds.
 #define MORULA_EFFORT_THOROUGH 2
+
+/// MORULA_METHOD_COVER: thin to a medial surface (the default).
+#define MORULA_ENDS_SURFACE 0
+
+/// MORULA_METHOD_COVER: thin to curves, for shapes about an axis.
+#define MORULA_ENDS_CURVE 1
+
+/// MORULA_METHOD_COVER: candidates at the voxels of the skeleton (the default).
+#define MORULA_CANDIDATES_THINNED 0
+
+/// MORULA_METHOD_COVER: candidates that touch the vertices of a mesh from within.
+#define MORULA_CANDIDATES_ANALYTIC 1
 
 /// Spheres in the frame in which the shape was handed in (the default).
 #define MORULA_FRAME_INPUT 0
@@ -265,6 +281,9 @@
 
 /// The method finds no further sphere that brings the clump closer; the note says why.
 #define MORULA_STOPPED_EXHAUSTED 5
+
+/// The coverage asked for was reached.
+#define MORULA_STOPPED_COVERAGE 6
 
 /// A clump: spheres and what was measured on them. Made by
 /// morula_clump_from_shape() or morula_clump_from_solid(), freed by
@@ -543,6 +562,18 @@ typedef struct morula_clump_options {
   int32_t effort;
   /// Must be 0.
   int32_t reserved;
+  /// Stop when this share of the volume is covered, by the method's own cells; 0: no target.
+  /// This and all below for MORULA_METHOD_COVER alone. Default 0.
+  double coverage;
+  /// One of MORULA_ENDS_*. Default MORULA_ENDS_SURFACE.
+  int32_t ends;
+  /// One of MORULA_CANDIDATES_*. Default MORULA_CANDIDATES_THINNED.
+  int32_t candidates;
+  /// Voxels to be thinned, along the diameter of the sphere of equal volume. Default 60.
+  uint32_t thinning_cells;
+  /// Cells to be covered, along the same diameter within the body; half their size at its
+  /// surface. Default 50.
+  uint32_t cells_inside;
 } morula_clump_options;
 
 /// How far the union of the spheres C is from the target S, by volume.

@@ -19,6 +19,8 @@ pub enum Stopped {
     Cancelled,
     /// The method finds no further sphere that brings the clump closer; `note` says why.
     Exhausted,
+    /// The coverage asked for was reached.
+    Coverage,
 }
 
 impl Stopped {
@@ -31,6 +33,7 @@ impl Stopped {
             Stopped::Deadline => "deadline",
             Stopped::Cancelled => "cancelled",
             Stopped::Exhausted => "exhausted",
+            Stopped::Coverage => "coverage",
         }
     }
 }

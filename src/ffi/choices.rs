@@ -77,6 +77,9 @@ pub const MORULA_METHOD_BEST: i32 = 1;
 pub const MORULA_METHOD_SURFACE_FIT: i32 = 2;
 /// Most coverage with no sphere beyond the surface.
 pub const MORULA_METHOD_INSCRIBED: i32 = 3;
+/// Largest inscribed spheres about a thinned skeleton by greedy set cover: none reaches beyond the
+/// surface.
+pub const MORULA_METHOD_COVER: i32 = 4;
 
 /// MORULA_METHOD_BEST: milliseconds.
 pub const MORULA_EFFORT_DRAFT: i32 = 0;
@@ -84,6 +87,16 @@ pub const MORULA_EFFORT_DRAFT: i32 = 0;
 pub const MORULA_EFFORT_NORMAL: i32 = 1;
 /// MORULA_METHOD_BEST: seconds.
 pub const MORULA_EFFORT_THOROUGH: i32 = 2;
+
+/// MORULA_METHOD_COVER: thin to a medial surface (the default).
+pub const MORULA_ENDS_SURFACE: i32 = 0;
+/// MORULA_METHOD_COVER: thin to curves, for shapes about an axis.
+pub const MORULA_ENDS_CURVE: i32 = 1;
+
+/// MORULA_METHOD_COVER: candidates at the voxels of the skeleton (the default).
+pub const MORULA_CANDIDATES_THINNED: i32 = 0;
+/// MORULA_METHOD_COVER: candidates that touch the vertices of a mesh from within.
+pub const MORULA_CANDIDATES_ANALYTIC: i32 = 1;
 
 /// Spheres in the frame in which the shape was handed in (the default).
 pub const MORULA_FRAME_INPUT: i32 = 0;
@@ -111,3 +124,5 @@ pub const MORULA_STOPPED_DEADLINE: i32 = 3;
 pub const MORULA_STOPPED_CANCELLED: i32 = 4;
 /// The method finds no further sphere that brings the clump closer; the note says why.
 pub const MORULA_STOPPED_EXHAUSTED: i32 = 5;
+/// The coverage asked for was reached.
+pub const MORULA_STOPPED_COVERAGE: i32 = 6;

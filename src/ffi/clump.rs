@@ -9,6 +9,7 @@ use super::solid::{build, morula_solid};
 use super::structs::*;
 use crate::clump::Clump;
 use crate::error::{Error, Result};
+use crate::generate::cover::{Candidates, CoverOptions, Ends};
 use crate::generate::{Effort, GenerateOptions, Method, generate};
 use crate::math::{Moments, UnitFrame};
 use crate::measure::QualityOptions;
@@ -55,6 +56,7 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
         MORULA_METHOD_BEST => Method::Best,
         MORULA_METHOD_SURFACE_FIT => Method::SurfaceFit,
         MORULA_METHOD_INSCRIBED => Method::Inscribed,
+        MORULA_METHOD_COVER => Method::Cover,
         other => return no_choice("method", other),
     };
     let effort = match o.effort {
@@ -62,6 +64,16 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
         MORULA_EFFORT_NORMAL => Effort::Normal,
         MORULA_EFFORT_THOROUGH => Effort::Thorough,
         other => return no_choice("effort", other),
+    };
+    let ends = match o.ends {
+        MORULA_ENDS_SURFACE => Ends::Surface,
+        MORULA_ENDS_CURVE => Ends::Curve,
+        other => return no_choice("ends", other),
+    };
+    let candidates = match o.candidates {
+        MORULA_CANDIDATES_THINNED => Candidates::Thinned,
+        MORULA_CANDIDATES_ANALYTIC => Candidates::Analytic,
+        other => return no_choice("candidates", other),
     };
     let confine = match o.confine {
         0 => false,
@@ -112,6 +124,13 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
         min_distance: o.min_distance,
         radius_offset: o.radius_offset,
         confine,
+        coverage: o.coverage,
+        cover: CoverOptions {
+            ends,
+            candidates,
+            thinning_cells: o.thinning_cells,
+            cells_inside: o.cells_inside,
+        },
         effort,
         quality: measured.then_some(quality),
     };

@@ -81,6 +81,7 @@ pub unsafe extern "C" fn morula_clump_stopped(
             Stopped::Deadline => MORULA_STOPPED_DEADLINE,
             Stopped::Cancelled => MORULA_STOPPED_CANCELLED,
             Stopped::Exhausted => MORULA_STOPPED_EXHAUSTED,
+            Stopped::Coverage => MORULA_STOPPED_COVERAGE,
         };
         unsafe { put(stopped, value, "stopped") }
     })
@@ -99,6 +100,7 @@ pub extern "C" fn morula_stopped_name(stopped: i32) -> *const c_char {
         MORULA_STOPPED_DEADLINE => c"deadline",
         MORULA_STOPPED_CANCELLED => c"cancelled",
         MORULA_STOPPED_EXHAUSTED => c"exhausted",
+        MORULA_STOPPED_COVERAGE => c"coverage",
         _ => c"unknown",
     };
     name.as_ptr()

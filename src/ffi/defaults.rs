@@ -68,7 +68,7 @@ versioned!(
     }
 );
 versioned!(
-    morula_clump_options, 120, added 128;
+    morula_clump_options, 120, added 128, 152;
     morula_clump_options {
         struct_size: size_of::<Self>(),
         spheres: 50,
@@ -90,6 +90,11 @@ versioned!(
         user: std::ptr::null_mut(),
         effort: MORULA_EFFORT_NORMAL,
         reserved: 0,
+        coverage: 0.0,
+        ends: MORULA_ENDS_SURFACE,
+        candidates: MORULA_CANDIDATES_THINNED,
+        thinning_cells: 60,
+        cells_inside: 50,
     }
 );
 /// All-zero structs: every field of these is a number.

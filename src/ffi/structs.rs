@@ -142,6 +142,18 @@ pub struct morula_clump_options {
     pub effort: i32,
     /// Must be 0.
     pub reserved: i32,
+    /// Stop when this share of the volume is covered, by the method's own cells; 0: no target.
+    /// This and all below for MORULA_METHOD_COVER alone. Default 0.
+    pub coverage: f64,
+    /// One of MORULA_ENDS_*. Default MORULA_ENDS_SURFACE.
+    pub ends: i32,
+    /// One of MORULA_CANDIDATES_*. Default MORULA_CANDIDATES_THINNED.
+    pub candidates: i32,
+    /// Voxels to be thinned, along the diameter of the sphere of equal volume. Default 60.
+    pub thinning_cells: u32,
+    /// Cells to be covered, along the same diameter within the body; half their size at its
+    /// surface. Default 50.
+    pub cells_inside: u32,
 }
 
 /// What was found in an input and what was done about it. Lengths, areas and

@@ -11,6 +11,7 @@ use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
 use crate::solid::Solid;
 pub use best::Effort;
+pub use cover::CoverOptions;
 
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -26,6 +27,9 @@ pub enum Method {
     SurfaceFit,
     /// Most coverage with no sphere beyond the surface: radii are exact depths.
     Inscribed,
+    /// Largest inscribed spheres about a thinned skeleton by greedy set cover (Yuan 2019): none
+    /// reaches beyond the surface.
+    Cover,
 }
 
 /// What a generator is asked for. The criteria apply alone or together; the
@@ -46,6 +50,11 @@ pub struct GenerateOptions {
     pub radius_offset: f64,
     /// Limit the radii so that no sphere reaches beyond the true surface (Buchele et al. 2026, section 3.5).
     pub confine: bool,
+    /// Stop when this share of the volume is covered, by the cells of [`Method::Cover`]; 0: no
+    /// target.
+    pub coverage: f64,
+    /// What [`Method::Cover`] covers, and with what.
+    pub cover: CoverOptions,
     /// How long [`Method::Best`] and [`Method::Inscribed`] look for a clump.
     pub effort: Effort,
     /// Quality to measure on the result; `None` costs nothing.
@@ -62,6 +71,8 @@ impl Default for GenerateOptions {
             min_distance: 0.0,
             radius_offset: 0.0,
             confine: false,
+            coverage: 0.0,
+            cover: CoverOptions::default(),
             effort: Effort::Normal,
             quality: None,
         }
@@ -76,6 +87,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
         Method::Best => best::best(solid, options, run),
         Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
         Method::Inscribed => best::inscribed::inscribed(solid, options, run),
+        Method::Cover => cover::cover(solid, options, run),
     })?;
     // A cancelled call measures no more: the clump goes out without figures.
     if let Some(wanted) = &options.quality
@@ -92,9 +104,12 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
 }
 
 fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
-    for (name, value) in
-        [("mismatch", o.mismatch), ("min_radius", o.min_radius), ("min_distance", o.min_distance)]
-    {
+    for (name, value) in [
+        ("mismatch", o.mismatch),
+        ("min_radius", o.min_radius),
+        ("min_distance", o.min_distance),
+        ("coverage", o.coverage),
+    ] {
         if !(value.is_finite() && value >= 0.0) {
             return Err(Error::InvalidArgument(format!(
                 "{name} is {}, not a number ≥ 0",
@@ -108,11 +123,25 @@ fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
             o.radius_offset
         )));
     }
+    if o.coverage > 1.0 {
+        return Err(Error::InvalidArgument(format!(
+            "coverage is {}, more than 1",
+            figure(o.coverage)
+        )));
+    }
+    if o.method != Method::Cover && (o.coverage != 0.0 || o.cover != CoverOptions::default()) {
+        return Err(Error::InvalidArgument(
+            "coverage, ends, candidates, thinning_cells and cells_inside are options of the \
+             method cover"
+                .into(),
+        ));
+    }
     // Surface fitting ends by itself.
     let endless = o.method != Method::SurfaceFit;
-    if endless && o.spheres == 0 && o.mismatch == 0.0 && o.min_radius == 0.0 && !run.can_stop() {
+    let criteria = [o.mismatch, o.min_radius, o.coverage];
+    if endless && o.spheres == 0 && criteria == [0.0; 3] && !run.can_stop() {
         return Err(Error::InvalidArgument(
-            "no criterion is given: spheres, mismatch and min_radius are all 0, and there is \
+            "no criterion is given: spheres, mismatch, min_radius and coverage are all 0, and there is \
              neither a deadline nor a progress callback that could cancel"
                 .into(),
         ));
@@ -140,6 +169,7 @@ mod tests {
             GenerateOptions { spheres: 1, ..none.clone() },
             GenerateOptions { mismatch: 0.1, ..none.clone() },
             GenerateOptions { min_radius: 0.1, ..none.clone() },
+            GenerateOptions { method: Method::Cover, coverage: 0.9, ..none.clone() },
         ] {
             assert!(!refused(&one, &Run::serial()));
         }
@@ -151,6 +181,8 @@ mod tests {
             let o = GenerateOptions::default();
             assert!(refused(&GenerateOptions { mismatch: bad, ..o.clone() }, &Run::serial()));
             assert!(refused(&GenerateOptions { min_radius: bad, ..o.clone() }, &Run::serial()));
+            let coverage = GenerateOptions { coverage: bad, method: Method::Cover, ..o.clone() };
+            assert!(refused(&coverage, &Run::serial()));
             assert!(refused(&GenerateOptions { min_distance: bad, ..o.clone() }, &Run::serial()));
         }
         let o = GenerateOptions { radius_offset: f64::NAN, ..GenerateOptions::default() };

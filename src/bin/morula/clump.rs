@@ -1,5 +1,6 @@
 //! `morula clump`: a shape in, spheres out.
 
+use crate::covering::Covering;
 use crate::fail::{About, Done, Fail};
 use crate::input::parse::{finite, not_negative, positive, whole};
 use crate::input::{self, Fineness, Reading};
@@ -19,7 +20,7 @@ pub struct Args {
     /// Shape: STL, OBJ, PLY, OFF, npy, TIFF or raw voxels, or sample:NAME[,key=value…]
     input: String,
     /// Number of spheres; 0: no limit, which takes another criterion [default: 50, or 0 with
-    /// --mismatch, --min-radius or --method surface-fit]
+    /// --mismatch, --min-radius, --coverage or --method surface-fit]
     #[arg(short = 'n', long = "spheres", value_name = "N", value_parser = whole::<usize>)]
     spheres: Option<usize>,
     /// File to write; - is stdout [default: stdout]
@@ -51,6 +52,8 @@ pub struct Args {
     quiet: bool,
     #[command(flatten)]
     making: Making,
+    #[command(flatten)]
+    covering: Covering,
     #[command(flatten)]
     fineness: Fineness,
     #[command(flatten)]
@@ -98,6 +101,9 @@ enum MethodArg {
     SurfaceFit,
     /// Most coverage with no sphere beyond the surface
     Inscribed,
+    /// Largest inscribed spheres by thinning and greedy set cover (paper of Yuan): none reaches
+    /// beyond the surface
+    Cover,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -169,10 +175,11 @@ pub fn run(args: &Args) -> Done {
         && options.method != Method::SurfaceFit
         && options.mismatch == 0.0
         && options.min_radius == 0.0
+        && options.coverage == 0.0
         && args.making.deadline.is_none()
     {
         return Err(Fail::Usage(
-            "-n 0 takes a criterion: --mismatch, --min-radius or --deadline".into(),
+            "-n 0 takes a criterion: --mismatch, --min-radius, --coverage or --deadline".into(),
         ));
     }
     let bar = Bar::new("clump", args.quiet);
@@ -224,8 +231,10 @@ impl Args {
 
     fn generate_options(&self) -> GenerateOptions {
         let m = &self.making;
+        let coverage = self.covering.coverage;
         let unbounded = m.mismatch.is_some()
             || m.min_radius.is_some()
+            || coverage.is_some()
             || matches!(m.method, MethodArg::SurfaceFit);
         GenerateOptions {
             method: match m.method {
@@ -233,6 +242,7 @@ impl Args {
                 MethodArg::Best => Method::Best,
                 MethodArg::SurfaceFit => Method::SurfaceFit,
                 MethodArg::Inscribed => Method::Inscribed,
+                MethodArg::Cover => Method::Cover,
             },
             effort: match m.effort {
                 EffortArg::Draft => Effort::Draft,
@@ -245,6 +255,8 @@ impl Args {
             min_distance: m.min_distance,
             radius_offset: m.radius_offset,
             confine: m.confine,
+            coverage: coverage.unwrap_or(0.0),
+            cover: self.covering.options(),
             quality: self.measures().then(|| QualityOptions {
                 overlap: self.quality != Wanted::None,
                 surface: self.quality == Wanted::Full,

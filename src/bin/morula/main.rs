@@ -5,6 +5,7 @@
 //! early ends the program quietly with 0.
 
 mod clump;
+mod covering;
 mod fail;
 mod info;
 mod input;

@@ -190,7 +190,7 @@ fn note(made: &Made, options: &GenerateOptions, n: usize) -> String {
     };
     let d = made.mismatch;
     match made.stopped {
-        Stopped::Spheres => String::new(),
+        Stopped::Spheres | Stopped::Coverage => String::new(),
         Stopped::Mismatch => format!("{of}: the mismatch on the grid is {d:.4}, as low as asked"),
         Stopped::Radius => {
             let least = figure(options.min_radius);

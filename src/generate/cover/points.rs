@@ -1,0 +1,365 @@
+//! Weighted set cover: points with weights, balls that hold them, and the greedy choice of balls
+//! (Yuan 2019, algorithm 2).
+//!
+//! Points lie in chunks of 64 that are close together, one bit each: a chunk that a ball misses
+//! or holds whole is not looked at point by point. Weights are whole numbers, so that sums do not
+//! depend on their order and the lazy choice (Minoux 1978) is that of the plain algorithm.
+
+use crate::error::{Result, filled, reserve};
+use crate::run::Run;
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use wide::f32x8;
+
+/// A point and its weight.
+pub(super) type Point = ([f32; 3], u32);
+
+/// A ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Ball {
+    pub center: [f32; 3],
+    pub radius: f32,
+}
+
+/// Chunks of points under one box.
+const GROUP: usize = 16;
+/// Balls that a thread takes at once.
+const CHUNK: usize = 128;
+
+/// Points, and which of them no ball holds yet.
+#[derive(Clone)]
+pub(super) struct Points {
+    chunks: Vec<Chunk>,
+    groups: Vec<Box>,
+    left: Vec<Left>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Box {
+    low: [f32; 3],
+    high: [f32; 3],
+}
+
+#[derive(Clone)]
+struct Chunk {
+    bounds: Box,
+    points: [[f32x8; 3]; 8],
+    weights: Weights,
+}
+
+#[derive(Clone)]
+enum Weights {
+    Same(u32),
+    Each(std::boxed::Box<[u32; 64]>),
+}
+
+/// Points of a chunk that no ball holds, and their weight.
+#[derive(Debug, Clone, Copy)]
+struct Left {
+    bits: u64,
+    weight: u64,
+}
+
+enum Lies {
+    Out,
+    In,
+    Across,
+}
+
+impl Box {
+    const EMPTY: Box = Box { low: [f32::MAX; 3], high: [f32::MIN; 3] };
+
+    fn add(&mut self, other: &Box) {
+        for a in 0..3 {
+            self.low[a] = self.low[a].min(other.low[a]);
+            self.high[a] = self.high[a].max(other.high[a]);
+        }
+    }
+
+    #[inline(always)]
+    fn lies(&self, ball: &Ball) -> Lies {
+        let (mut near, mut far) = (0.0f32, 0.0f32);
+        for a in 0..3 {
+            let (x, y) = (self.low[a] - ball.center[a], ball.center[a] - self.high[a]);
+            let out = x.max(y).max(0.0);
+            near += out * out;
+            let over = x.abs().max(y.abs());
+            far += over * over;
+        }
+        // Rounding must not tell a chunk's points apart from its box: a hair to each side.
+        let r2 = ball.radius * ball.radius;
+        if near > r2 * 1.00001 {
+            Lies::Out
+        } else if far < r2 * 0.99999 {
+            Lies::In
+        } else {
+            Lies::Across
+        }
+    }
+}
+
+impl Chunk {
+    fn of(some: &[Point]) -> Chunk {
+        let mut bounds = Box::EMPTY;
+        some.iter().for_each(|(p, _)| bounds.add(&Box { low: *p, high: *p }));
+        let at = |i: usize, a: usize| some.get(i).map_or(0.0, |(p, _)| p[a]);
+        let lanes = |k: usize, a: usize| f32x8::new(std::array::from_fn(|l| at(8 * k + l, a)));
+        let points = std::array::from_fn(|k| std::array::from_fn(|a| lanes(k, a)));
+        let weight = |i: usize| some.get(i).map_or(0, |p| p.1);
+        let weights = if some.iter().all(|p| p.1 == weight(0)) {
+            Weights::Same(weight(0))
+        } else {
+            Weights::Each(std::boxed::Box::new(std::array::from_fn(weight)))
+        };
+        Chunk { bounds, points, weights }
+    }
+
+    #[inline(always)]
+    fn held(&self, ball: &Ball) -> u64 {
+        let r2 = f32x8::splat(ball.radius * ball.radius);
+        let mut bits = 0;
+        for (k, p) in self.points.iter().enumerate() {
+            let [x, y, z] = [0, 1, 2].map(|a| p[a] - ball.center[a]);
+            let d2 = x * x + y * y + z * z;
+            bits |= u64::from(d2.simd_le(r2).to_bitmask()) << (8 * k);
+        }
+        bits
+    }
+
+    fn weight(&self, bits: u64) -> u64 {
+        match &self.weights {
+            Weights::Same(w) => u64::from(bits.count_ones()) * u64::from(*w),
+            Weights::Each(all) => {
+                let (mut rest, mut sum) = (bits, 0);
+                while rest != 0 {
+                    sum += u64::from(all[rest.trailing_zeros() as usize & 63]);
+                    rest &= rest - 1;
+                }
+                sum
+            }
+        }
+    }
+}
+
+impl Points {
+    /// Of several sets; points of one set share chunks.
+    pub(super) fn new(sets: Vec<Vec<Point>>) -> Result<Points> {
+        let total = sets.iter().map(|s| s.len().div_ceil(64)).sum();
+        let mut chunks = reserve("the points of the cover", total)?;
+        let mut left = reserve("the points of the cover", total)?;
+        for mut set in sets {
+            gather(&mut set);
+            for some in set.chunks(64) {
+                let chunk = Chunk::of(some);
+                let bits = u64::MAX >> (64 - some.len());
+                left.push(Left { bits, weight: chunk.weight(bits) });
+                chunks.push(chunk);
+            }
+        }
+        let groups = chunks.chunks(GROUP).map(|some: &[Chunk]| {
+            let mut bounds = Box::EMPTY;
+            some.iter().for_each(|c| bounds.add(&c.bounds));
+            bounds
+        });
+        Ok(Points { groups: groups.collect(), chunks, left })
+    }
+
+    /// Weight of all points that no ball holds.
+    pub(super) fn left(&self) -> u64 {
+        self.left.iter().map(|l| l.weight).sum()
+    }
+
+    /// Calls `f` for each chunk with the bits of its points that the ball holds and none did.
+    fn held(&self, ball: &Ball, mut f: impl FnMut(usize, u64)) {
+        for (g, bounds) in self.groups.iter().enumerate() {
+            if let Lies::Out = bounds.lies(ball) {
+                continue;
+            }
+            let first = g * GROUP;
+            let last = self.chunks.len().min(first + GROUP);
+            let some = self.chunks[first..last].iter().zip(&self.left[first..last]);
+            for (k, (chunk, left)) in some.enumerate() {
+                if left.bits == 0 {
+                    continue;
+                }
+                match chunk.bounds.lies(ball) {
+                    Lies::Out => {}
+                    Lies::In => f(first + k, left.bits),
+                    Lies::Across => f(first + k, chunk.held(ball) & left.bits),
+                }
+            }
+        }
+    }
+
+    /// Weight of the points that the ball holds and no other does yet.
+    pub(super) fn gain(&self, ball: &Ball) -> u64 {
+        let mut sum = 0;
+        self.held(ball, |k, bits| {
+            let left = self.left[k];
+            sum += if bits == left.bits { left.weight } else { self.chunks[k].weight(bits) };
+        });
+        sum
+    }
+
+    /// The ball's points are held from now on.
+    pub(super) fn hold(&mut self, ball: &Ball) {
+        let mut held = Vec::new();
+        self.held(ball, |k, bits| held.push((k, bits)));
+        for (k, bits) in held {
+            let weight = self.chunks[k].weight(bits);
+            let left = &mut self.left[k];
+            left.bits &= !bits;
+            left.weight -= weight;
+        }
+    }
+}
+
+/// The choice, one ball after the other.
+pub(super) struct Choice {
+    points: Points,
+    balls: Vec<Ball>,
+    heap: BinaryHeap<(u64, Reverse<usize>)>,
+    /// For how many chosen balls each gain was counted.
+    counted: Vec<usize>,
+    chosen: usize,
+    /// Gains counted.
+    pub counts: u64,
+}
+
+impl Choice {
+    pub(super) fn new(points: Points, balls: Vec<Ball>, run: &Run) -> Result<Choice> {
+        let chunks: Vec<&[Ball]> = balls.chunks(CHUNK).collect();
+        let gains = run.pool().map(chunks.len(), |i| {
+            let some = chunks.get(i).copied().unwrap_or_default();
+            some.iter().map(|b| points.gain(b)).collect::<Vec<u64>>()
+        });
+        let mut first = reserve("the gains of candidates", balls.len())?;
+        first.extend(gains.into_iter().flatten().enumerate().map(|(i, gain)| (gain, Reverse(i))));
+        let counted = filled("the gains of candidates", balls.len(), 0usize)?;
+        let heap = BinaryHeap::from(first);
+        let counts = balls.len() as u64;
+        Ok(Choice { points, balls, heap, counted, chosen: 0, counts })
+    }
+
+    /// The ball that holds the greatest weight that those before do not, the first of equal ones,
+    /// and that weight; `None` when no ball holds more.
+    pub(super) fn next(&mut self) -> Option<(usize, u64)> {
+        while let Some((gain, Reverse(i))) = self.heap.pop() {
+            if gain == 0 {
+                return None;
+            }
+            if self.counted[i] == self.chosen {
+                self.points.hold(&self.balls[i]);
+                self.chosen += 1;
+                return Some((i, gain));
+            }
+            self.counted[i] = self.chosen;
+            self.counts += 1;
+            self.heap.push((self.points.gain(&self.balls[i]), Reverse(i)));
+        }
+        None
+    }
+}
+
+/// Sorts so that points next to each other in the list are next to each other in space: halves
+/// across the longest extent, in whole chunks.
+fn gather(points: &mut [Point]) {
+    if points.len() <= 64 {
+        return;
+    }
+    let mut bounds = Box::EMPTY;
+    points.iter().for_each(|(p, _)| bounds.add(&Box { low: *p, high: *p }));
+    let extent = |a: usize| bounds.high[a] - bounds.low[a];
+    let longest = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
+    let half = points.len().div_ceil(128) * 64;
+    points.select_nth_unstable_by(half, |p, q| p.0[longest].total_cmp(&q.0[longest]));
+    let (low, high) = points.split_at_mut(half);
+    gather(low);
+    gather(high);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Noise(u64);
+
+    impl Noise {
+        fn unit(&mut self) -> f32 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (self.0 >> 40) as f32 / (1u64 << 24) as f32
+        }
+
+        fn point(&mut self) -> [f32; 3] {
+            [0; 3].map(|_| self.unit())
+        }
+    }
+
+    fn holds(b: &Ball, p: &[f32; 3]) -> bool {
+        let [x, y, z] = [0, 1, 2].map(|a| p[a] - b.center[a]);
+        x * x + y * y + z * z <= b.radius * b.radius
+    }
+
+    /// As `Choice`, with every gain counted anew each time, point by point.
+    fn naive(points: &[Point], balls: &[Ball]) -> Vec<(usize, u64)> {
+        let mut left: Vec<Point> = points.to_vec();
+        let mut chosen = Vec::new();
+        loop {
+            let held = |b: &Ball| {
+                let some = left.iter().filter(|(p, _)| holds(b, p));
+                some.map(|(_, w)| u64::from(*w)).sum::<u64>()
+            };
+            let best = balls.iter().map(held).enumerate().max_by_key(|&(i, g)| (g, Reverse(i)));
+            let Some((i, gain @ 1..)) = best else { return chosen };
+            left.retain(|(p, _)| !holds(&balls[i], p));
+            chosen.push((i, gain));
+        }
+    }
+
+    #[test]
+    fn lazy_is_naive_with_any_weights() {
+        for (seed, sizes) in [(1, [1, 0]), (2, [64, 65]), (3, [700, 130]), (4, [1500, 900])] {
+            let mut noise = Noise(seed);
+            let mut set = |n: usize, same: bool| -> Vec<Point> {
+                let mut point =
+                    || (noise.point(), 1 + (if same { 7.0 } else { 9.0 * noise.unit() }) as u32);
+                (0..n).map(|_| point()).collect()
+            };
+            let sets = vec![set(sizes[0], true), set(sizes[1], false)];
+            let all: Vec<Point> = sets.iter().flatten().copied().collect();
+            let balls: Vec<Ball> = (0..160)
+                .map(|i| Ball { center: noise.point(), radius: [0.05, 0.1, 0.2, 0.35][i % 4] })
+                .flat_map(|b| [b, b])
+                .collect();
+            let expected = naive(&all, &balls);
+            for threads in [1, 2] {
+                let run = Run::new(threads).unwrap();
+                let mut choice =
+                    Choice::new(Points::new(sets.clone()).unwrap(), balls.clone(), &run).unwrap();
+                let total = choice.points.left();
+                assert_eq!(total, all.iter().map(|p| u64::from(p.1)).sum::<u64>());
+                let mut chosen = Vec::new();
+                while let Some(next) = choice.next() {
+                    chosen.push(next);
+                }
+                assert_eq!(chosen, expected);
+                let gains: u64 = chosen.iter().map(|c| c.1).sum();
+                assert_eq!(choice.points.left(), total - gains);
+            }
+        }
+    }
+
+    #[test]
+    fn few_gains_are_counted_twice() {
+        let mut noise = Noise(9);
+        let points: Vec<Point> = (0..4000).map(|_| (noise.point(), 5)).collect();
+        let balls: Vec<Ball> =
+            (0..1000).map(|_| Ball { center: noise.point(), radius: 0.08 }).collect();
+        let points = Points::new(vec![points]).unwrap();
+        let mut choice = Choice::new(points, balls, &Run::serial()).unwrap();
+        for _ in 0..100 {
+            assert!(choice.next().is_some());
+        }
+        assert!(choice.counts < 6000, "{}", choice.counts);
+    }
+}
