@@ -56,7 +56,7 @@ pub(super) fn surface_fit(solid: &Solid, options: &GenerateOptions, run: &Run) -
     run.check(0.05, "finding the convex hull")?;
     let hull = Hull::new(&points.at, &points.normals, run)?;
     let rules = Rules::of(solid, options, points.at.len());
-    let sieve = Sieve { hull: &hull, surface, rules: &rules };
+    let sieve = Sieve { hull: &hull, surface, points: &points.at, rules: &rules };
 
     let ended = Cell::new(None);
     let ask = |fraction: f64, any: bool| {
@@ -70,7 +70,6 @@ pub(super) fn surface_fit(solid: &Solid, options: &GenerateOptions, run: &Run) -
     let sampled = sample(&points, &sieve, run, &mut |f, any| ask(0.1 + 0.5 * f, any))?;
     run.count(|c| {
         c.spheres_tried += sampled.drawn;
-        c.exact_distances += sampled.distances;
         c.peak_bytes = c.peak_bytes.max(solid.bytes() + held);
     });
     let clusters = clusters(&sampled.spheres, rules.merge)?;

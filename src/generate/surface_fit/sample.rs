@@ -6,7 +6,7 @@ use super::hull::Hull;
 use super::points::Points;
 use super::rules::Rules;
 use crate::error::{Result, push, reserve};
-use crate::math::Sphere;
+use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::solid::nearest::Surface;
 
@@ -26,6 +26,7 @@ const STREAM: u64 = 2;
 pub(super) struct Sieve<'a> {
     pub hull: &'a Hull,
     pub surface: &'a Surface,
+    pub points: &'a [Vec3],
     pub rules: &'a Rules,
 }
 
@@ -34,7 +35,7 @@ impl Sieve<'_> {
     /// farther beyond the hull (eq 7 with the other side), nor beyond the surface itself, is no
     /// farther from it (eq 7; for a convex body the distance to the hull is that to the surface),
     /// and its centre lies inside.
-    pub fn keeps(&self, s: &Sphere, asked: &mut u64) -> bool {
+    pub fn keeps(&self, s: &Sphere) -> bool {
         let rules = self.rules;
         if !(s.radius >= rules.min_radius && s.radius <= rules.most) {
             return false;
@@ -44,20 +45,20 @@ impl Sieve<'_> {
         if self.hull.depth(&s.center, enough) < enough {
             return false;
         }
-        *asked += 1;
-        let Some(near) = self.surface.nearest_within(&s.center, s.radius + slack) else {
-            return false;
-        };
-        near.distance >= enough && self.surface.contains(&s.center)
+        // The nearest of the points: as exact as their distance is small beside the radius, and no
+        // wall inside the body counts.
+        let near =
+            self.points.iter().map(|p| (p - s.center).norm_squared()).fold(f64::MAX, f64::min);
+        let near = near.sqrt();
+        near >= enough && near <= s.radius + slack && self.surface.contains(&s.center)
     }
 }
 
 /// What the sampling came to.
 pub(super) struct Sampled {
     pub spheres: Vec<Sphere>,
-    /// Quadruples drawn, and distances to the surface that were asked for.
+    /// Quadruples drawn.
     pub drawn: u64,
-    pub distances: u64,
 }
 
 /// Draws spheres until nearly every point is close to one. `go` is asked before each round but the
@@ -71,7 +72,7 @@ pub(super) fn sample(
     let mut left: Vec<u32> = reserve("the list of points", points.at.len())?;
     left.extend(0..points.at.len() as u32);
     let enough = (points.at.len() as f64 * LEFT) as usize;
-    let mut out = Sampled { spheres: Vec::new(), drawn: 0, distances: 0 };
+    let mut out = Sampled { spheres: Vec::new(), drawn: 0 };
     for round in 0..ROUNDS {
         if left.len() <= enough.max(3) {
             break;
@@ -82,21 +83,14 @@ pub(super) fn sample(
         let seed = run.seed();
         let found = run.pool().map(ROUND / CHUNK, |c| {
             let places = (c * CHUNK..(c + 1) * CHUNK).map(|i| (round * ROUND + i) as u64);
-            let mut asked = 0;
-            let mut some = Vec::new();
-            for place in places {
-                let sphere = draw(points, &left, seed, place, sieve.rules.grain);
-                some.extend(sphere.filter(|s| sieve.keeps(s, &mut asked)));
-            }
-            (some, asked)
+            let grain = sieve.rules.grain;
+            let spheres = places.filter_map(|p| draw(points, &left, seed, p, grain));
+            spheres.filter(|s| sieve.keeps(s)).collect::<Vec<Sphere>>()
         });
         out.drawn += ROUND as u64;
         let first = out.spheres.len();
-        for (some, asked) in found {
-            out.distances += asked;
-            for s in some {
-                push("four-point spheres", &mut out.spheres, s)?;
-            }
+        for s in found.into_iter().flatten() {
+            push("four-point spheres", &mut out.spheres, s)?;
         }
         let fresh = out.spheres.get(first..).unwrap_or_default();
         let tolerance = sieve.rules.satisfied;
