@@ -82,6 +82,8 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_RAW_U8 = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_RAW_U16 = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_RAW_F32 = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CARVE_TOUCHED = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CARVE_CENTRES = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_RESOLUTION_CELLS_LONGEST = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_RESOLUTION_CELLS_SHORTEST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_RESOLUTION_CELLS_DIAMETER = 2_c_int32_t
@@ -274,6 +276,7 @@ module morula
   public :: morula_shape_copy_note, morula_shape_moments, morula_file_options_init
   public :: morula_shape_from_file, morula_shape_from_bytes, morula_shape_from_mask
   public :: morula_shape_from_grey_u8, morula_shape_from_grey_u16, morula_shape_from_grey_f32
+  public :: morula_shape_from_silhouettes
   public :: morula_shape_from_label, morula_labels_count, morula_labels_copy
   public :: morula_labels_from_file, morula_labels_from_bytes
   public :: morula_primitive_name, morula_primitive_parameter_count
@@ -436,6 +439,20 @@ module morula
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_mask
+    function morula_shape_from_silhouettes(count, masks, widths, heights, cameras, cells, carve, &
+        options, shape) bind(c) result(r)
+      import
+      integer(c_size_t), value :: count
+      integer(c_int8_t), intent(in) :: masks(*)
+      integer(c_size_t), intent(in) :: widths(*)
+      integer(c_size_t), intent(in) :: heights(*)
+      real(c_double), intent(in) :: cameras(*)
+      integer(c_size_t), value :: cells
+      integer(c_int32_t), value :: carve
+      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: shape
+      integer(c_int32_t) :: r
+    end function morula_shape_from_silhouettes
     function morula_shape_from_grey_u8(values, dims, spacing, origin, threshold, options, &
         shape) bind(c) result(r)
       import
@@ -720,6 +737,7 @@ module morula
     procedure :: create_from_bytes => shape_from_bytes
     !> From voxels mask(nx, ny, nz): those that are not 0 are solid.
     procedure :: create_from_mask => shape_from_mask
+    procedure :: create_from_silhouettes => shape_from_silhouettes
     procedure, private :: shape_from_grey_u8, shape_from_grey_u16, shape_from_grey_f32
     !> From grey values(nx, ny, nz): c_int8_t and c_int16_t are read as unsigned, or c_float.
     !> Solid above `threshold`; without it, above Otsu's.
@@ -1049,6 +1067,33 @@ contains
     call finish(morula_shape_from_mask(mask, shape(mask, c_size_t), spacing, origin, options, &
       self%handle), status)
   end subroutine shape_from_mask
+
+  !> The visual hull of silhouettes, one behind the other in masks. cameras(:, k, i) is row k of the
+  !> matrix of camera i.
+  subroutine shape_from_silhouettes(self, masks, widths, heights, cameras, cells, carve, options, &
+      status)
+    class(morula_shape_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: masks(:)
+    integer(c_size_t), intent(in), contiguous :: widths(:), heights(:)
+    real(c_double), intent(in), contiguous :: cameras(:, :, :)
+    integer, intent(in), optional :: cells
+    integer(c_int32_t), intent(in), optional :: carve
+    type(morula_import_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    integer(c_int32_t) :: way
+    call self%destroy()
+    n = 64
+    if (present(cells)) n = int(cells, c_size_t)
+    way = MORULA_CARVE_TOUCHED
+    if (present(carve)) way = carve
+    if (any(shape(cameras) /= [4, 3, size(widths)]) .or. size(heights) /= size(widths) .or. &
+        size(masks, kind=c_size_t) /= sum(widths * heights)) then
+      error stop 'morula: masks has sum(widths*heights) elements and cameras is an array (4, 3, n)'
+    end if
+    call finish(morula_shape_from_silhouettes(size(widths, kind=c_size_t), masks, widths, heights, &
+      cameras, n, way, options, self%handle), status)
+  end subroutine shape_from_silhouettes
 
   subroutine shape_from_grey_u8(self, values, threshold, spacing, origin, options, status)
     class(morula_shape_t), intent(inout) :: self

@@ -196,6 +196,13 @@
 /// Raw voxels of 32 bits, floating point, little-endian.
 #define MORULA_RAW_F32 2
 
+/// Silhouettes: cells of which some part may lie in the hull stay, so that the shape contains the
+/// hull, and the body.
+#define MORULA_CARVE_TOUCHED 0
+
+/// Silhouettes: cells whose centre lies in the hull stay, so that the volume is the hull's.
+#define MORULA_CARVE_CENTRES 1
+
 /// `cells` along the longest edge of the bounding box (the default, 64).
 #define MORULA_RESOLUTION_CELLS_LONGEST 0
 
@@ -962,6 +969,37 @@ int32_t morula_labels_copy(const uint32_t *labels,
                            uint64_t *cells,
                            uint64_t *boxes,
                            int32_t *touches_border);
+
+/// Makes a shape from silhouettes of a particle seen by calibrated cameras: the
+/// visual hull, carved out of voxels. It contains the body, and comes closer with
+/// more cameras; a dent that no outline shows stays filled.
+///
+/// Parameters: `count` silhouettes. `masks` holds all of them one behind the other,
+/// a byte for each pixel, row by row: not 0 where the particle is seen. Silhouette k
+/// has `widths[k]` columns and `heights[k]` rows; the pixel of column i and row j is
+/// element i + j times width and covers [i, i+1] x [j, j+1]. Space outside an image
+/// is empty; a silhouette that touches the border of its image is noted. `cameras`
+/// holds 12 numbers for each, the 3 x 4 matrix P row by row: (u, v, w) = P (x, y, z, 1)
+/// is seen at column u/w and row v/w, with w > 0 in front of the camera. `cells`
+/// along the longest edge of the hull's box, 4 to 2048. `carve` is one of
+/// MORULA_CARVE_*. `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (no pixel, cells,
+/// carve, a camera without rank 3, cameras that bound no body, an option);
+/// NOT_FINITE (a camera); EMPTY (a silhouette without particle, or no point lies
+/// within all of them); SEVERAL_BODIES; STRUCT_SIZE; TOO_LARGE; MEMORY_LIMIT;
+/// OUT_OF_MEMORY; CANCELLED; INTERNAL.
+/// Ownership: the arrays are copied; free *shape with morula_shape_free().
+/// *shape is written only on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_from_silhouettes(size_t count,
+                                      const uint8_t *masks,
+                                      const size_t *widths,
+                                      const size_t *heights,
+                                      const double *cameras,
+                                      size_t cells,
+                                      int32_t carve,
+                                      const struct morula_import_options *options,
+                                      struct morula_shape **shape);
 
 /// The name of the built-in analytic particle number `index`, counted from 0.
 ///

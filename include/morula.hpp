@@ -164,6 +164,15 @@ struct Layout {
   }
 };
 
+/// What one camera sees of a particle: not 0 where a pixel shows it, row by row; the 3 x 4 camera
+/// matrix by rows.
+struct Silhouette {
+  std::vector<std::uint8_t> mask;
+  std::size_t width;
+  std::size_t height;
+  std::array<double, 12> camera;
+};
+
 /// A checked shape: something with an inside.
 class Shape {
  public:
@@ -200,6 +209,27 @@ class Shape {
     return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
       return morula_shape_from_mask(mask.data(), layout.dims.data(), layout.spacing.data(),
                                     layout.origin.data(), &o, out);
+    });
+  }
+  /// The visual hull of silhouettes, `cells` along its longest edge; carve is MORULA_CARVE_*.
+  static Shape from_silhouettes(const std::vector<Silhouette> &silhouettes, std::size_t cells = 64,
+                                std::int32_t carve = MORULA_CARVE_TOUCHED,
+                                const ImportOptions &options = {}, Progress progress = {}) {
+    std::vector<std::uint8_t> masks;
+    std::vector<std::size_t> widths, heights;
+    std::vector<double> cameras;
+    for (const auto &s : silhouettes) {
+      if (s.mask.size() != s.width * s.height)
+        throw Error(MORULA_STATUS_INVALID_ARGUMENT,
+                    "a mask's size is not the product of width and height");
+      masks.insert(masks.end(), s.mask.begin(), s.mask.end());
+      widths.push_back(s.width);
+      heights.push_back(s.height);
+      cameras.insert(cameras.end(), s.camera.begin(), s.camera.end());
+    }
+    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+      return morula_shape_from_silhouettes(widths.size(), masks.data(), widths.data(),
+                                           heights.data(), cameras.data(), cells, carve, &o, out);
     });
   }
   /// From grey values; solid above *threshold, or above Otsu's threshold for a null pointer.

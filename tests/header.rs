@@ -8,7 +8,7 @@ fn root() -> PathBuf {
 }
 
 /// The header's order of reading.
-const FILES: [&str; 11] = [
+const FILES: [&str; 12] = [
     "status",
     "callbacks",
     "choices",
@@ -16,6 +16,7 @@ const FILES: [&str; 11] = [
     "shape",
     "file",
     "voxels",
+    "silhouettes",
     "primitive",
     "solid",
     "clump",

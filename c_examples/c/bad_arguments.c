@@ -88,6 +88,25 @@ static void voxels(void) {
   STATUS(morula_shape_from_grey_u16(u16, wide, NULL, NULL, NULL, NULL, &shape), MORULA_STATUS_TOO_LARGE);
   STATUS(morula_shape_from_mask(mask, dims, zero, NULL, NULL, &shape), MORULA_STATUS_INVALID_ARGUMENT);
   STATUS(morula_shape_from_mask(mask, dims, NULL, nan, NULL, &shape), MORULA_STATUS_NOT_FINITE);
+  {
+    size_t two[2] = {2, 2}, wide[2] = {SIZE_MAX, 2};
+    double cameras[24] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1};
+    uint8_t seen[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    STATUS(morula_shape_from_silhouettes(2, NULL, two, two, cameras, 8, 0, NULL, &shape), MORULA_STATUS_NULL_POINTER);
+    STATUS(morula_shape_from_silhouettes(2, seen, NULL, two, cameras, 8, 0, NULL, &shape), MORULA_STATUS_NULL_POINTER);
+    STATUS(morula_shape_from_silhouettes(2, seen, two, NULL, cameras, 8, 0, NULL, &shape), MORULA_STATUS_NULL_POINTER);
+    STATUS(morula_shape_from_silhouettes(2, seen, two, two, NULL, 8, 0, NULL, &shape), MORULA_STATUS_NULL_POINTER);
+    STATUS(morula_shape_from_silhouettes(2, seen, two, two, cameras, 8, 0, NULL, NULL), MORULA_STATUS_NULL_POINTER);
+    STATUS(morula_shape_from_silhouettes(2, seen, wide, two, cameras, 8, 0, NULL, &shape), MORULA_STATUS_TOO_LARGE);
+    STATUS(morula_shape_from_silhouettes(2, seen, two, two, cameras, 8, 7, NULL, &shape), MORULA_STATUS_INVALID_ARGUMENT);
+    STATUS(morula_shape_from_silhouettes(2, seen, two, two, cameras, 3, 0, NULL, &shape), MORULA_STATUS_INVALID_ARGUMENT);
+    STATUS(morula_shape_from_silhouettes(0, NULL, NULL, NULL, NULL, 8, 0, NULL, &shape), MORULA_STATUS_INVALID_ARGUMENT);
+    /* Both look along one axis. */
+    STATUS(morula_shape_from_silhouettes(2, seen, two, two, cameras, 8, 0, NULL, &shape), MORULA_STATUS_INVALID_ARGUMENT);
+    STATUS(morula_shape_from_silhouettes(2, mask, two, two, cameras, 8, 0, NULL, &shape), MORULA_STATUS_EMPTY);
+    cameras[17] = NAN;
+    STATUS(morula_shape_from_silhouettes(2, seen, two, two, cameras, 8, 0, NULL, &shape), MORULA_STATUS_NOT_FINITE);
+  }
   STATUS(morula_shape_from_grey_u8(mask, dims, NULL, NULL, &nan[2], NULL, &shape), MORULA_STATUS_NOT_FINITE);
   STATUS(morula_shape_from_grey_f32(f32, two, NULL, NULL, NULL, NULL, &shape), MORULA_STATUS_NOT_FINITE);
   STATUS(morula_shape_from_grey_f32(NULL, two, NULL, NULL, NULL, NULL, &shape), MORULA_STATUS_NULL_POINTER);

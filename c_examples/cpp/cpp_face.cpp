@@ -99,6 +99,14 @@ int main() {
   CHECK(status_of([] { morula::Shape::from_mesh({1}, {}); }) == MORULA_STATUS_INVALID_ARGUMENT);
   CHECK(status_of([&] { solid.distance({1, 2}); }) == MORULA_STATUS_INVALID_ARGUMENT);
   CHECK(status_of([] { morula::Shape::from_primitive("cheese"); }) == MORULA_STATUS_UNSUPPORTED);
+  // A box of 2 x 1 x 3 from two sides: x and y, then z and y.
+  morula::Silhouette front{{0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 0, 0}, 4, 3, {1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 1}};
+  morula::Silhouette side{{0, 0, 0, 0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0}, 5, 3, {0, 0, 1, 1, 0, 1, 0, 1, 0, 0, 0, 1}};
+  const auto hull = morula::Shape::from_silhouettes({front, side}, 6, MORULA_CARVE_CENTRES);
+  CHECK(hull.report().volume > 5.999 && hull.report().volume < 6.001);
+  front.width = 3;
+  CHECK(status_of([&] { morula::Shape::from_silhouettes({front, side}); }) ==
+        MORULA_STATUS_INVALID_ARGUMENT);
   CHECK(status_of([] { morula::Shape::from_mask({1, 1}, {{3, 1, 1}}); }) ==
         MORULA_STATUS_INVALID_ARGUMENT);
   try {

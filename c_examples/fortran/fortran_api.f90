@@ -146,7 +146,8 @@ contains
     type(morula_file_options) :: file_options
     real(c_double) :: vertices(3, 12)
     integer(c_int32_t) :: triangles(3, 20), status
-    integer(c_int8_t) :: mask(3, 2, 1)
+    integer(c_int8_t) :: mask(3, 2, 1), seen(27)
+    real(c_double) :: cameras(4, 3, 2)
     integer(c_int16_t) :: grey(4, 1, 1)
     integer(c_int32_t) :: labels(4, 1, 1)
     integer(c_int32_t), allocatable :: ids(:)
@@ -196,6 +197,18 @@ contains
     call s%create_from_mask(mask, origin=[10.0_c_double, 20.0_c_double, 30.0_c_double])
     call s%moments(2.0_c_double, m)
     call l_moments(m)
+    ! A box of 2 x 1 x 3 from two sides: x and y, then z and y.
+    seen = 0_c_int8_t
+    seen([6, 7, 18, 19, 20]) = 1_c_int8_t
+    cameras = 0
+    cameras(1, 1, 1) = 1
+    cameras(3, 1, 2) = 1
+    cameras(2, 2, :) = 1
+    cameras(4, :, :) = 1
+    call s%create_from_silhouettes(seen, [4_c_size_t, 5_c_size_t], [3_c_size_t, 3_c_size_t], &
+      cameras, cells=6, carve=MORULA_CARVE_CENTRES)
+    call s%report(report)
+    call check(abs(report%volume - 6) < 1e-3_c_double, 'volume of the hull')
     call s%create_from_grey(mask, threshold=0.5_c_double)
     call s%report(report)
     call check(report%solid_cells == 4, 'grey u8')

@@ -59,6 +59,12 @@ pub const MORULA_RAW_U16: i32 = 1;
 /// Raw voxels of 32 bits, floating point, little-endian.
 pub const MORULA_RAW_F32: i32 = 2;
 
+/// Silhouettes: cells of which some part may lie in the hull stay, so that the shape contains the
+/// hull, and the body.
+pub const MORULA_CARVE_TOUCHED: i32 = 0;
+/// Silhouettes: cells whose centre lies in the hull stay, so that the volume is the hull's.
+pub const MORULA_CARVE_CENTRES: i32 = 1;
+
 /// `cells` along the longest edge of the bounding box (the default, 64).
 pub const MORULA_RESOLUTION_CELLS_LONGEST: i32 = 0;
 /// `cells` along the shortest edge of the bounding box.

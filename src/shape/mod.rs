@@ -8,11 +8,13 @@ pub mod read;
 pub mod report;
 #[cfg(test)]
 pub(crate) mod samples;
+pub mod silhouettes;
 pub mod voxels;
 
 pub use mesh::Mesh;
 pub use primitive::{Parameter, Primitive};
 pub use report::Report;
+pub use silhouettes::{Carve, Silhouette};
 pub use voxels::{Layout, Voxels};
 
 use crate::error::figure;

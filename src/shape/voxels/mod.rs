@@ -5,9 +5,11 @@ mod bodies;
 mod grey;
 mod labels;
 mod mask;
+mod specks;
 
 pub use grey::{F32_BINS, otsu};
 pub use labels::{list_labels, widen_labels};
+pub(crate) use specks::drop_specks;
 
 use crate::error::{Error, Result, figure};
 use crate::math::Vec3;
