@@ -93,6 +93,10 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_METHOD_SURFACE_FIT = 2_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_INSCRIBED = 3_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_COVER = 4_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_METHOD_EUCLIDEAN = 10_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_METHOD_FERELLEC_MCDOWELL = 11_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_METHOD_FAVIER = 12_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_METHOD_UNIFORM_GRID = 13_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_DRAFT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_NORMAL = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_THOROUGH = 2_c_int32_t
@@ -222,6 +226,8 @@ module morula
     integer(c_int32_t) :: candidates = 0_c_int32_t
     integer(c_int32_t) :: thinning_cells = 0_c_int32_t
     integer(c_int32_t) :: cells_inside = 0_c_int32_t
+    real(c_double) :: tolerance = 0.0_c_double
+    real(c_double) :: overlap = 0.0_c_double
   end type morula_clump_options
 
   type, bind(c), public :: morula_overlap

@@ -232,6 +232,18 @@
 /// surface.
 #define MORULA_METHOD_COVER 4
 
+/// The greatest ball in what is left of the body, again and again.
+#define MORULA_METHOD_EUCLIDEAN 10
+
+/// The greatest spheres that touch the surface from inside at its points (Ferellec, McDowell).
+#define MORULA_METHOD_FERELLEC_MCDOWELL 11
+
+/// Spheres about the axis of a body of revolution.
+#define MORULA_METHOD_FAVIER 12
+
+/// Spheres about the cells of the grid, those that cover most first (Garcia; Li, Xu and Meng).
+#define MORULA_METHOD_UNIFORM_GRID 13
+
 /// MORULA_METHOD_BEST: milliseconds.
 #define MORULA_EFFORT_DRAFT 0
 
@@ -570,7 +582,7 @@ typedef struct morula_clump_options {
   /// Must be 0.
   int32_t reserved;
   /// Stop when this share of the volume is covered, by the method's own cells; 0: no target.
-  /// This and all below for MORULA_METHOD_COVER alone. Default 0.
+  /// This and the four below for MORULA_METHOD_COVER alone. Default 0.
   double coverage;
   /// One of MORULA_ENDS_*. Default MORULA_ENDS_SURFACE.
   int32_t ends;
@@ -581,6 +593,12 @@ typedef struct morula_clump_options {
   /// Cells to be covered, along the same diameter within the body; half their size at its
   /// surface. Default 50.
   uint32_t cells_inside;
+  /// How far a sphere may reach beyond the surface, in the caller's unit, for
+  /// MORULA_METHOD_EUCLIDEAN and the methods after it. Default 0.
+  double tolerance;
+  /// MORULA_METHOD_EUCLIDEAN: by which part of its radius a sphere is shrunk before it is taken
+  /// from the body; 0: the spheres do not overlap. Default 0.9.
+  double overlap;
 } morula_clump_options;
 
 /// How far the union of the spheres C is from the target S, by volume.

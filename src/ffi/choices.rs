@@ -86,6 +86,14 @@ pub const MORULA_METHOD_INSCRIBED: i32 = 3;
 /// Largest inscribed spheres about a thinned skeleton by greedy set cover: none reaches beyond the
 /// surface.
 pub const MORULA_METHOD_COVER: i32 = 4;
+/// The greatest ball in what is left of the body, again and again.
+pub const MORULA_METHOD_EUCLIDEAN: i32 = 10;
+/// The greatest spheres that touch the surface from inside at its points (Ferellec, McDowell).
+pub const MORULA_METHOD_FERELLEC_MCDOWELL: i32 = 11;
+/// Spheres about the axis of a body of revolution.
+pub const MORULA_METHOD_FAVIER: i32 = 12;
+/// Spheres about the cells of the grid, those that cover most first (Garcia; Li, Xu and Meng).
+pub const MORULA_METHOD_UNIFORM_GRID: i32 = 13;
 
 /// MORULA_METHOD_BEST: milliseconds.
 pub const MORULA_EFFORT_DRAFT: i32 = 0;

@@ -57,6 +57,10 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
         MORULA_METHOD_SURFACE_FIT => Method::SurfaceFit,
         MORULA_METHOD_INSCRIBED => Method::Inscribed,
         MORULA_METHOD_COVER => Method::Cover,
+        MORULA_METHOD_EUCLIDEAN => Method::Euclidean,
+        MORULA_METHOD_FERELLEC_MCDOWELL => Method::FerellecMcDowell,
+        MORULA_METHOD_FAVIER => Method::Favier,
+        MORULA_METHOD_UNIFORM_GRID => Method::UniformGrid,
         other => return no_choice("method", other),
     };
     let effort = match o.effort {
@@ -131,6 +135,8 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
             thinning_cells: o.thinning_cells,
             cells_inside: o.cells_inside,
         },
+        tolerance: o.tolerance,
+        overlap: o.overlap,
         effort,
         quality: measured.then_some(quality),
     };

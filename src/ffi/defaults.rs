@@ -68,7 +68,7 @@ versioned!(
     }
 );
 versioned!(
-    morula_clump_options, 120, added 128, 152;
+    morula_clump_options, 120, added 128, 152, 168;
     morula_clump_options {
         struct_size: size_of::<Self>(),
         spheres: 50,
@@ -95,6 +95,8 @@ versioned!(
         candidates: MORULA_CANDIDATES_THINNED,
         thinning_cells: 60,
         cells_inside: 50,
+        tolerance: 0.0,
+        overlap: crate::generate::OVERLAP,
     }
 );
 /// All-zero structs: every field of these is a number.

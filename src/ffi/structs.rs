@@ -143,7 +143,7 @@ pub struct morula_clump_options {
     /// Must be 0.
     pub reserved: i32,
     /// Stop when this share of the volume is covered, by the method's own cells; 0: no target.
-    /// This and all below for MORULA_METHOD_COVER alone. Default 0.
+    /// This and the four below for MORULA_METHOD_COVER alone. Default 0.
     pub coverage: f64,
     /// One of MORULA_ENDS_*. Default MORULA_ENDS_SURFACE.
     pub ends: i32,
@@ -154,6 +154,12 @@ pub struct morula_clump_options {
     /// Cells to be covered, along the same diameter within the body; half their size at its
     /// surface. Default 50.
     pub cells_inside: u32,
+    /// How far a sphere may reach beyond the surface, in the caller's unit, for
+    /// MORULA_METHOD_EUCLIDEAN and the methods after it. Default 0.
+    pub tolerance: f64,
+    /// MORULA_METHOD_EUCLIDEAN: by which part of its radius a sphere is shrunk before it is taken
+    /// from the body; 0: the spheres do not overlap. Default 0.9.
+    pub overlap: f64,
 }
 
 /// What was found in an input and what was done about it. Lengths, areas and

@@ -1,5 +1,6 @@
 //! The methods that turn a solid into a clump.
 
+mod baselines;
 pub mod best;
 pub mod cover;
 pub mod mss;
@@ -10,6 +11,7 @@ use crate::error::{Error, Result, figure};
 use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
 use crate::solid::Solid;
+pub use baselines::OVERLAP;
 pub use best::Effort;
 pub use cover::CoverOptions;
 
@@ -30,6 +32,25 @@ pub enum Method {
     /// Largest inscribed spheres about a thinned skeleton by greedy set cover (Yuan 2019): none
     /// reaches beyond the surface.
     Cover,
+    /// The greatest ball in what is left of the body, again and again (CLUMP, Angelidakis et al.
+    /// 2021), each ball shrunk by the overlap and taken away.
+    Euclidean,
+    /// The greatest balls that touch the surface from inside at its points (Ferellec and McDowell
+    /// 2010).
+    FerellecMcDowell,
+    /// Balls about the points of the axis of a body of revolution (Favier et al. 1999).
+    Favier,
+    /// Balls about the cells of a grid, those that cover most chosen first (Garcia et al. 2009;
+    /// Li, Xu and Meng 2015).
+    UniformGrid,
+}
+
+impl Method {
+    /// Whether it reads `tolerance`.
+    fn tolerates(self) -> bool {
+        use Method::*;
+        matches!(self, Euclidean | FerellecMcDowell | Favier | UniformGrid)
+    }
 }
 
 /// What a generator is asked for. The criteria apply alone or together; the
@@ -55,6 +76,12 @@ pub struct GenerateOptions {
     pub coverage: f64,
     /// What [`Method::Cover`] covers, and with what.
     pub cover: CoverOptions,
+    /// How far a sphere may reach beyond the surface, in the caller's unit: read by the
+    /// baselines of the field ([`Method::Euclidean`] and those after it).
+    pub tolerance: f64,
+    /// [`Method::Euclidean`]: by which part of its radius a ball is shrunk before it is taken from
+    /// the body; 0: the balls do not overlap.
+    pub overlap: f64,
     /// How long [`Method::Best`] and [`Method::Inscribed`] look for a clump.
     pub effort: Effort,
     /// Quality to measure on the result; `None` costs nothing.
@@ -73,6 +100,8 @@ impl Default for GenerateOptions {
             confine: false,
             coverage: 0.0,
             cover: CoverOptions::default(),
+            tolerance: 0.0,
+            overlap: OVERLAP,
             effort: Effort::Normal,
             quality: None,
         }
@@ -88,6 +117,10 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
         Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
         Method::Inscribed => best::inscribed::inscribed(solid, options, run),
         Method::Cover => cover::cover(solid, options, run),
+        Method::Euclidean => baselines::euclidean(solid, options, run),
+        Method::FerellecMcDowell => baselines::ferellec_mcdowell(solid, options, run),
+        Method::Favier => baselines::favier(solid, options, run),
+        Method::UniformGrid => baselines::uniform_grid(solid, options, run),
     })?;
     // A cancelled call measures no more: the clump goes out without figures.
     if let Some(wanted) = &options.quality
@@ -109,6 +142,7 @@ fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
         ("min_radius", o.min_radius),
         ("min_distance", o.min_distance),
         ("coverage", o.coverage),
+        ("tolerance", o.tolerance),
     ] {
         if !(value.is_finite() && value >= 0.0) {
             return Err(Error::InvalidArgument(format!(
@@ -133,6 +167,24 @@ fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
         return Err(Error::InvalidArgument(
             "coverage, ends, candidates, thinning_cells and cells_inside are options of the \
              method cover"
+                .into(),
+        ));
+    }
+    if !(0.0..=1.0).contains(&o.overlap) {
+        return Err(Error::InvalidArgument(format!(
+            "overlap is {}, not a number from 0 to 1",
+            figure(o.overlap)
+        )));
+    }
+    if o.overlap != OVERLAP && o.method != Method::Euclidean {
+        return Err(Error::InvalidArgument(
+            "overlap is an option of the method euclidean alone".into(),
+        ));
+    }
+    if o.tolerance != 0.0 && !o.method.tolerates() {
+        return Err(Error::InvalidArgument(
+            "tolerance is an option of the methods euclidean, ferellec-mcdowell, favier and \
+             uniform-grid"
                 .into(),
         ));
     }

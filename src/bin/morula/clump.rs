@@ -8,7 +8,7 @@ use crate::progress::Bar;
 use crate::write::{self, ClumpFormat};
 use clap::ValueEnum;
 use morula::error::count;
-use morula::generate::{Effort, GenerateOptions, Method, generate};
+use morula::generate::{Effort, GenerateOptions, Method, OVERLAP, generate};
 use morula::measure::QualityOptions;
 use morula::{Clump, Run, Shape, Solid};
 use serde_json::{Value, json};
@@ -89,6 +89,14 @@ struct Making {
     /// Let no sphere reach beyond the true surface
     #[arg(long)]
     confine: bool,
+    /// How far spheres of the methods euclidean, ferellec-mcdowell, favier and uniform-grid may
+    /// reach beyond the surface, in your length unit
+    #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative)]
+    tolerance: f64,
+    /// By which part of its radius method euclidean shrinks a sphere before it is taken from the
+    /// body, 0 to 1; 0: no sphere overlaps another
+    #[arg(long, value_name = "PART", default_value_t = OVERLAP, value_parser = not_negative)]
+    overlap: f64,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -104,6 +112,15 @@ enum MethodArg {
     /// Largest inscribed spheres by thinning and greedy set cover (paper of Yuan): none reaches
     /// beyond the surface
     Cover,
+    /// The greatest ball in what is left, again and again (CLUMP)
+    Euclidean,
+    /// The greatest balls that touch the surface from inside at its points
+    #[value(name = "ferellec-mcdowell")]
+    FerellecMcDowell,
+    /// Balls about the axis of a body of revolution
+    Favier,
+    /// Balls about the cells of the grid, those that cover most first (Garcia; Li, Xu and Meng)
+    UniformGrid,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -243,6 +260,10 @@ impl Args {
                 MethodArg::SurfaceFit => Method::SurfaceFit,
                 MethodArg::Inscribed => Method::Inscribed,
                 MethodArg::Cover => Method::Cover,
+                MethodArg::Euclidean => Method::Euclidean,
+                MethodArg::FerellecMcDowell => Method::FerellecMcDowell,
+                MethodArg::Favier => Method::Favier,
+                MethodArg::UniformGrid => Method::UniformGrid,
             },
             effort: match m.effort {
                 EffortArg::Draft => Effort::Draft,
@@ -257,6 +278,8 @@ impl Args {
             confine: m.confine,
             coverage: coverage.unwrap_or(0.0),
             cover: self.covering.options(),
+            tolerance: m.tolerance,
+            overlap: m.overlap,
             quality: self.measures().then(|| QualityOptions {
                 overlap: self.quality != Wanted::None,
                 surface: self.quality == Wanted::Full,

@@ -2,7 +2,7 @@
 
 /// Cell counts of the clump and the target.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Counts {
+pub(in crate::generate) struct Counts {
     pub target: u64,
     pub inside: u64,
     pub outside: u64,

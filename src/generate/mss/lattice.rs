@@ -6,7 +6,7 @@ use crate::error::{Result, filled};
 
 /// A sphere on the lattice: cell (i, j, k) has its centre at `(i, j, k) * step`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Ball {
+pub(in crate::generate) struct Ball {
     pub center: [f64; 3],
     pub radius: f64,
 }
@@ -21,7 +21,7 @@ const ROWS: f64 = 10.0;
 
 /// Rows of cells along x, 64 to a word.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Lattice {
+pub(in crate::generate) struct Lattice {
     pub dims: [usize; 3],
     /// Edge lengths of a cell; all exactly 1 when the cells are cubes.
     pub step: [f64; 3],
@@ -31,7 +31,7 @@ pub(super) struct Lattice {
 
 /// A stretch of a row, both ends included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Span {
+pub(in crate::generate) struct Span {
     pub row: usize,
     pub first: usize,
     pub last: usize,

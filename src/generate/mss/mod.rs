@@ -8,9 +8,9 @@
 
 mod candidates;
 mod center;
-mod counts;
+pub(in crate::generate) mod counts;
 mod depth;
-mod lattice;
+pub(in crate::generate) mod lattice;
 mod maxima;
 mod residue;
 mod select;
@@ -18,7 +18,7 @@ mod settle;
 mod slots;
 mod subvoxel;
 mod symmetry;
-mod target;
+pub(in crate::generate) mod target;
 mod transform;
 
 use super::GenerateOptions;

@@ -187,7 +187,7 @@ impl Truth<'_> {
 }
 
 /// The length that counts as one cell (the edge of a cube of the same volume) and the edges in it.
-fn cell_and_step(spacing: &Vec3) -> (f64, [f64; 3]) {
+pub(in crate::generate) fn cell_and_step(spacing: &Vec3) -> (f64, [f64; 3]) {
     let cube = (0..3).all(|a| (spacing[a] / spacing[0] - 1.0).abs() < 1e-9);
     if cube {
         return (spacing[0], [1.0; 3]);

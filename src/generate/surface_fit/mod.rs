@@ -16,7 +16,7 @@ mod four_point;
 mod hull;
 mod levenberg;
 mod openings;
-mod points;
+pub(in crate::generate) mod points;
 mod rules;
 mod sample;
 

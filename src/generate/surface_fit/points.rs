@@ -23,7 +23,7 @@ const CHUNK: usize = 64;
 const STREAM: u64 = 1;
 
 /// Points of the surface along a space-filling curve: neighbours in the list are neighbours.
-pub(super) struct Points {
+pub(in crate::generate) struct Points {
     pub at: Vec<Vec3>,
     /// Outward normals there.
     pub normals: Vec<Vec3>,
