@@ -3,6 +3,7 @@
 
 use super::chords::{Row, lengths, single, whole};
 use super::dexels::{Dexels, Seen};
+use super::piles::{Exchange, Piles};
 use crate::error::{Result, filled};
 
 /// Lengths of columns in units of the lattice.
@@ -50,6 +51,8 @@ pub(super) struct Cover {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Look {
     pub region: Region,
+    /// Balls that change.
+    pub exchange: Exchange,
     /// Its columns' new lengths.
     fresh: Vec<[f32; 2]>,
     row: Row,
@@ -113,7 +116,7 @@ impl Region {
     }
 
     /// Rows with a run of columns.
-    fn runs(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
+    pub(super) fn runs(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
         self.runs.iter().map(|&[b, from, to]| (b as usize, [from as usize, to as usize]))
     }
 
@@ -145,6 +148,17 @@ impl Cover {
         }
     }
 
+    /// Takes over what the last [`Look::exchange`] found.
+    fn take_exchange(&mut self, dexels: &Dexels, look: &Look) {
+        let mut fresh = look.exchange.fresh.iter();
+        for (b, [from, to]) in look.region.runs() {
+            let first = b * dexels.dims[0];
+            for (old, new) in self.columns[first + from..first + to].iter_mut().zip(&mut fresh) {
+                *old = *new;
+            }
+        }
+    }
+
     /// All columns anew.
     pub(super) fn whole(&mut self, dexels: &Dexels, balls: &[Seen], look: &mut Look) -> Lengths {
         look.region.all(dexels);
@@ -162,9 +176,42 @@ impl Cover {
 }
 
 impl Look {
+    /// What the region's columns would hold if the balls `of` were at the places that `seen` has
+    /// for them, less what they hold now.
+    pub(super) fn exchange(
+        &mut self,
+        cover: &Cover,
+        piles: &Piles,
+        dexels: &Dexels,
+        of: &[u32],
+        seen: &[Seen],
+    ) -> Lengths {
+        self.exchange.set(of, seen);
+        piles.change(dexels, &self.region, &mut self.exchange, &cover.columns)
+    }
+
+    /// Takes over what the last [`Look::exchange`] found.
+    pub(super) fn take(
+        &mut self,
+        cover: &mut Cover,
+        piles: &mut Piles,
+        dexels: &Dexels,
+        alone: &mut [Lengths],
+    ) {
+        cover.take_exchange(dexels, self);
+        piles.take(dexels, &self.region, &mut self.exchange, alone);
+    }
+
+    /// All balls by their lower ends.
+    pub(super) fn order(&mut self, dexels: &Dexels, balls: &[Seen]) -> &[u32] {
+        self.region.all(dexels);
+        sort(&mut self.order, &self.region, balls);
+        &self.order
+    }
+
     /// What the region's columns would hold of the union of `balls`, less what they hold now.
     pub(super) fn change(&mut self, cover: &Cover, dexels: &Dexels, balls: &[Seen]) -> Lengths {
-        let Look { region, fresh, row, order } = self;
+        let Look { region, fresh, row, order, .. } = self;
         fresh.clear();
         sort(order, region, balls);
         let mut sum = Lengths::default();

@@ -111,3 +111,45 @@ fn gaps_are_what_is_missing() {
         }
     }
 }
+
+#[test]
+fn exchanges_are_changes() {
+    for body in bodies() {
+        let dexels = body.dexels(3000);
+        let (mut cover, mut piles) = (Cover::new(&dexels).unwrap(), Piles::new(&dexels).unwrap());
+        let mut look = Look::default();
+        let mut seen: Vec<Seen> = clump(40, 11).iter().map(|b| dexels.seen(b)).collect();
+        cover.whole(&dexels, &seen, &mut look);
+        piles.fill(&dexels, &seen, look.order(&dexels, &seen));
+        let mut alone = vec![Lengths::default(); seen.len()];
+        piles.alone(&dexels, &mut alone);
+        let fresh = clump(90, 12);
+        for some in fresh.chunks(3) {
+            let of = [1, 7, 8].map(|k| (some[0].radius.to_bits() + k) % 40);
+            let mut moved = seen.clone();
+            for (&j, b) in of.iter().zip(some) {
+                moved[j as usize] = dexels.seen(b);
+            }
+            let both = of.iter().flat_map(|&j| [seen[j as usize], moved[j as usize]]);
+            look.region.of(&dexels, both);
+            let slow = look.change(&cover, &dexels, &moved);
+            let fast = look.exchange(&cover, &piles, &dexels, &of, &moved);
+            let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * dexels.target;
+            assert!(close(slow.union, fast.union) && close(slow.both, fast.both));
+            look.take(&mut cover, &mut piles, &dexels, &mut alone);
+            seen = moved;
+        }
+        let (mut whole, mut other) = (Cover::new(&dexels).unwrap(), Look::default());
+        whole.whole(&dexels, &seen, &mut other);
+        for (x, y) in whole.columns.iter().zip(&cover.columns) {
+            assert!((x[0] - y[0]).abs() < 1e-3 && (x[1] - y[1]).abs() < 1e-3);
+        }
+        let mut anew = vec![Lengths::default(); seen.len()];
+        other.region.all(&dexels);
+        other.alone(&dexels, &seen, 1.0, &mut anew);
+        for (x, y) in alone.iter().zip(&anew) {
+            assert!((x.union - y.union).abs() < 1e-5 * dexels.target, "{x:?} {y:?}");
+            assert!((x.both - y.both).abs() < 1e-5 * dexels.target, "{x:?} {y:?}");
+        }
+    }
+}

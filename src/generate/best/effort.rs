@@ -13,6 +13,9 @@ pub enum Effort {
     Thorough,
 }
 
+/// Of more spheres than this, fewer moves are tried.
+const MANY: usize = 150;
+
 /// The counts of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Plan {
@@ -35,6 +38,8 @@ impl Effort {
     pub(super) fn plan(self, n: usize) -> Plan {
         let wide = |least: usize, each: usize| least.max(each.saturating_mul(n));
         let add = |base: usize, each: usize| base.saturating_add(each.saturating_mul(n));
+        // Of many spheres a move costs more: each column holds more of them.
+        let moves = |few: usize| few.saturating_mul(MANY).div_ceil(n.max(MANY));
         match self {
             Effort::Draft => Plan {
                 points: wide(1500, 24),
@@ -51,8 +56,8 @@ impl Effort {
                 directions: 96,
                 iterations: 100,
                 columns: add(1500, 15),
-                moves: 160 + n / 4,
-                polish: [192, 40],
+                moves: moves(160),
+                polish: [192, 50],
             },
             Effort::Thorough => Plan {
                 points: wide(6000, 32),
@@ -60,7 +65,7 @@ impl Effort {
                 directions: 96,
                 iterations: 100,
                 columns: add(4000, 60),
-                moves: add(4000, 4),
+                moves: moves(4000),
                 polish: [384, 60],
             },
         }

@@ -19,6 +19,7 @@ pub(super) mod inscribed;
 mod medial;
 mod moves;
 mod near;
+mod piles;
 mod random;
 mod refine;
 mod search;

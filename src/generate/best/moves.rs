@@ -19,6 +19,8 @@ const SHAKEN: f64 = 0.25;
 const PLACES: usize = 4;
 /// Most balls refined by a move.
 const AROUND: usize = 12;
+/// How many times as large as the ball that moves these may be.
+const LARGER: f32 = 4.0;
 /// A move whose best place loses more than this part of what the ball was worth is given up every
 /// other time.
 const LOST: f64 = 0.6;
@@ -155,12 +157,14 @@ impl Mover {
         best.0
     }
 
-    /// Adds to `of` the balls that meet ball `i` at its old or new place, the nearest ones.
+    /// Adds to `of` the balls that meet ball `i` at its old or new place, those that overlap it
+    /// most. Much larger ones stay: all their columns would have to be looked at.
     fn around(&self, state: &State, i: usize, of: &mut Vec<u32>) {
         let (old, new) = (&state.balls[i], &self.trial[i]);
+        let most = LARGER * old.radius.max(new.radius);
         let mut near: Vec<(f32, u32)> = Vec::new();
         for (j, b) in (0u32..).zip(&self.trial) {
-            if j as usize != i && (b.meets(old, 0.0) || b.meets(new, 0.0)) {
+            if j as usize != i && b.radius <= most && (b.meets(old, 0.0) || b.meets(new, 0.0)) {
                 // How far apart the surfaces are.
                 let gap = |x: &Ball| b.apart(x).sqrt() - b.radius - x.radius;
                 near.push((gap(old).min(gap(new)), j));
@@ -177,6 +181,6 @@ impl Mover {
             self.seen[j as usize] = dexels.seen(&self.trial[j as usize]);
         }
         state.aim(of, &self.seen, &mut self.look);
-        state.cost(&self.look.change(&state.cover, dexels, &self.seen))
+        state.cost(&self.look.exchange(&state.cover, &state.piles, dexels, of, &self.seen))
     }
 }

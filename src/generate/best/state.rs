@@ -6,6 +6,7 @@ use super::cover::{Cover, Lengths, Look};
 use super::dexels::{Dexels, Seen};
 use super::exposed::Weights;
 use super::field::Field;
+use super::piles::Piles;
 use super::random::Random;
 use super::refine::Radii;
 use crate::error::{Result, filled, reserve};
@@ -26,6 +27,7 @@ pub(super) struct State<'a> {
     pub balls: Vec<Ball>,
     pub seen: Vec<Seen>,
     pub cover: Cover,
+    pub piles: Piles,
     lengths: Lengths,
     /// What each ball covers that no other does.
     alone: Vec<Lengths>,
@@ -48,6 +50,7 @@ impl<'a> State<'a> {
             seen: reserve("balls along the columns", n)?,
             balls,
             cover: Cover::new(ground.dexels)?,
+            piles: Piles::new(ground.dexels)?,
             lengths: Lengths::default(),
             alone: filled("what balls are worth", n, Lengths::default())?,
             tried: filled("moves of balls", n, 0)?,
@@ -101,7 +104,8 @@ impl<'a> State<'a> {
         self.seen.extend(self.balls.iter().map(|b| dexels.seen(b)));
         self.lengths = self.cover.whole(dexels, &self.seen, look);
         self.alone.fill(Lengths::default());
-        look.alone(dexels, &self.seen, 1.0, &mut self.alone);
+        self.piles.fill(dexels, &self.seen, look.order(dexels, &self.seen));
+        self.piles.alone(dexels, &mut self.alone);
         self.rows.clear();
         for b in 0..dexels.dims[1] {
             self.rows.push(self.row(b));
@@ -116,13 +120,11 @@ impl<'a> State<'a> {
             seen[j as usize] = dexels.seen(ball);
         }
         self.aim(of, &seen, look);
-        let change = look.change(&self.cover, dexels, &seen);
+        let change = look.exchange(&self.cover, &self.piles, dexels, of, &seen);
         if self.cost(&change) >= 0.0 {
             return false;
         }
-        self.cover.take(dexels, look);
-        look.alone(dexels, &self.seen, -1.0, &mut self.alone);
-        look.alone(dexels, &seen, 1.0, &mut self.alone);
+        look.take(&mut self.cover, &mut self.piles, dexels, &mut self.alone);
         for b in look.region.rows() {
             self.rows[b] = self.row(b);
         }
