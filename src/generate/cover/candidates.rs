@@ -34,14 +34,14 @@ pub(super) fn candidates(
     limit: u64,
     run: &Run,
 ) -> Result<Vec<Sphere>> {
-    let centers = match options.candidates {
-        Candidates::Thinned => skeleton(turned, options, limit, run)?,
+    let mut spheres = match options.candidates {
+        Candidates::Thinned => {
+            let centers = skeleton(turned, options, limit, run)?;
+            let surface = solid.surface(run)?;
+            each(&centers, run, |c| Sphere::new(*c, surface.nearest(c).distance))?
+        }
         Candidates::Analytic => analytic(solid, run)?,
     };
-    let surface = solid.surface(run)?;
-    let mut spheres = reserve("the candidates", centers.len())?;
-    let distances = each(&centers, run, |c| surface.nearest(c).distance)?;
-    spheres.extend(centers.into_iter().zip(distances).map(|(c, r)| Sphere::new(c, r)));
     spheres.retain(|s| s.radius > 0.0);
     run.count(|c| c.exact_distances += spheres.len() as u64);
     // Stable: of equal ones the first of the lattice stays first.
@@ -86,20 +86,22 @@ fn skeleton(turned: &Turned, options: &CoverOptions, limit: u64, run: &Run) -> R
     Ok(centers)
 }
 
-/// Centres of the largest balls that touch the vertices from within, in the unit frame.
-fn analytic(solid: &Solid, run: &Run) -> Result<Vec<Vec3>> {
+/// The largest balls that touch the vertices from within, in the unit frame.
+fn analytic(solid: &Solid, run: &Run) -> Result<Vec<Sphere>> {
     let Body::Mesh(mesh) = solid.body() else {
         return Err(Error::InvalidArgument(
             "analytic candidates need the vertices of a mesh, and the shape is voxels".into(),
         ));
     };
     let surface = solid.surface(run)?;
+    let (grid, distance) = (solid.grid(), solid.distance(run)?);
+    let within = Within { surface, depth: &|p| -grid.trilinear(distance, p), cell: grid.spacing.x };
     let touched = touches(mesh)?;
     let most = solid.unit_moments().volume.cbrt();
-    let found = each(&touched, run, |t| touching(t, surface, most))?;
-    let mut centers = reserve("the candidates", found.len())?;
-    centers.extend(found.into_iter().flatten().filter(|c| surface.contains(c)));
-    Ok(centers)
+    let found = each(&touched, run, |t| within.touching(t, most))?;
+    let mut spheres = reserve("the candidates", found.len())?;
+    spheres.extend(found.into_iter().flatten());
+    Ok(spheres)
 }
 
 /// A vertex to be touched: its place, normal, and how far its faces reach.
@@ -137,27 +139,60 @@ fn touches(mesh: &Mesh) -> Result<Vec<Touch>> {
     Ok(touched)
 }
 
-/// Shrinks a ball that touches the vertex until nothing else is in it but the faces at the
-/// vertex, which cut a little off any ball.
-fn touching(t: &Touch, surface: &Surface, most: f64) -> Option<Vec3> {
-    let mut radius = most;
-    for _ in 0..32 {
-        let center = t.at - t.normal * radius;
-        let near = surface.nearest_within(&center, radius * (1.0 - 1e-6));
-        let Some(near) = near else { return Some(center) };
-        let apart = t.at - near.point;
-        let along = 2.0 * t.normal.dot(&apart);
-        if apart.norm() <= t.reach {
-            return Some(center);
+/// A surface, and the depth below it by a field of cells, which is nearly right.
+struct Within<'a> {
+    surface: &'a Surface,
+    depth: &'a (dyn Fn(&Vec3) -> f64 + Sync),
+    cell: f64,
+}
+
+/// A ball is empty where the surface comes no nearer than this share of its radius.
+const EMPTY: f64 = 1.0 - 1e-9;
+
+impl Within<'_> {
+    /// A radius a little above that of the largest ball: as far as the field's depth grows as
+    /// fast as the distance from the vertex, which saves most exact searches.
+    fn start(&self, t: &Touch, most: f64) -> f64 {
+        let holds = |r: f64| (self.depth)(&(t.at - t.normal * r)) >= r - self.cell;
+        let (mut low, mut high) = (0.0, self.cell);
+        while high < most && holds(high) {
+            low = high;
+            high *= 2.0;
         }
-        // The ball through both: |p − q|² = 2 r n·(p − q).
-        let smaller = if along > 0.0 { apart.norm_squared() / along } else { return None };
-        if smaller >= radius * (1.0 - 1e-6) {
-            return Some(center);
+        for _ in 0..6 {
+            let middle = 0.5 * (low + high);
+            if holds(middle) { low = middle } else { high = middle }
         }
-        radius = smaller;
+        high
     }
-    Some(t.at - t.normal * radius)
+
+    /// Shrinks a ball that touches the vertex until nothing else is in it but the faces at the
+    /// vertex, which cut a little off any ball.
+    fn touching(&self, t: &Touch, most: f64) -> Option<Sphere> {
+        let mut radius = self.start(t, most);
+        for _ in 0..32 {
+            let center = t.at - t.normal * radius;
+            let mut free = radius * EMPTY;
+            if let Some(near) = self.surface.nearest_within(&center, free) {
+                let apart = t.at - near.point;
+                if apart.norm() > t.reach {
+                    // The ball through both: |p − q|² = 2 r n·(p − q).
+                    let along = 2.0 * t.normal.dot(&apart);
+                    if along <= 0.0 {
+                        return None;
+                    }
+                    let smaller = apart.norm_squared() / along;
+                    if smaller < radius * EMPTY {
+                        radius = smaller;
+                        continue;
+                    }
+                }
+                free = near.distance;
+            }
+            return ((self.depth)(&center) > 0.0).then(|| Sphere::new(center, free));
+        }
+        None
+    }
 }
 
 #[cfg(test)]
@@ -190,7 +225,8 @@ mod tests {
             assert!(spheres.is_sorted_by(|a, b| a.radius >= b.radius));
             let most = spheres[0].radius;
             for s in &spheres {
-                assert!((surface.signed_distance(&s.center) + s.radius).abs() < 1e-12);
+                let beyond = surface.signed_distance(&s.center) + s.radius;
+                assert!(beyond < 1e-12 && beyond > -1e-8, "{beyond:e}");
             }
             let central = spheres.iter().filter(|s| s.radius > 0.9 * most).count();
             assert!(2 * central > spheres.len(), "{candidates:?} {central} of {}", spheres.len());
