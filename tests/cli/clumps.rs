@@ -262,3 +262,18 @@ fn a_deadline_and_a_mismatch_stop_with_spheres() {
     let v: Value = serde_json::from_str(&printed).unwrap();
     assert_eq!(v["stopped"], "mismatch", "{v}");
 }
+
+#[test]
+fn surface_fit_finds_its_own_number() {
+    let fit = |more: &[&str]| {
+        let fixed = ["clump", "sample:stone", "--method", "surface-fit", "--json", "--quality"];
+        let args: Vec<&str> = [&fixed[..], &["none", "--threads", "1"], more].concat();
+        serde_json::from_str::<Value>(&succeeds(&args)).unwrap()
+    };
+    let free = fit(&[]);
+    let n = free["n"].as_u64().unwrap();
+    assert!((4..40).contains(&n) && free["stopped"] == "exhausted", "{free}");
+    assert_eq!(fit(&["-n", "0"])["spheres"], free["spheres"]);
+    let three = fit(&["-n", "3"]);
+    assert!(three["n"] == 3 && three["stopped"] == "spheres", "{three}");
+}

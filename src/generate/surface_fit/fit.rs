@@ -129,3 +129,49 @@ impl Target<'_> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::Body;
+    use crate::shape::samples;
+
+    fn sphere(x: f64, radius: f64) -> Sphere {
+        Sphere::new(Vec3::new(x, 0.5, 0.5), radius)
+    }
+
+    #[test]
+    fn a_point_belongs_to_the_sphere_that_gives_its_distance_from_the_union() {
+        let spheres = [sphere(0.0, 0.5), sphere(1.0, 0.7), sphere(0.2, 0.1)];
+        let at = [-1.0, -0.4, 0.2, 0.25, 0.45, 0.5, 3.0];
+        let points = at.map(|x| Vec3::new(x, 0.5, 0.5));
+        // 0.45: 0.05 within the first, 0.15 within the second, in the third not at all.
+        assert_eq!(assign(&spheres, &points, &Run::serial()), [0, 0, 0, 0, 1, 1, 1]);
+        let many: Vec<Vec3> = (0..999).map(|i| points[i % 7]).collect();
+        let run = Run::new(3).unwrap();
+        let of_many = assign(&spheres, &many, &run);
+        assert!(of_many.iter().enumerate().all(|(i, s)| *s == u32::from(i % 7 > 3)));
+    }
+
+    #[test]
+    fn the_poorest_goes_first_then_one_of_twins() {
+        let surface = Surface::new(&Body::Mesh(samples::cuboid([0.0; 3], [1.0; 3]))).unwrap();
+        let rules = Rules {
+            diameter: 1.0,
+            min_radius: 0.0,
+            most: 1.0,
+            satisfied: 0.1,
+            merge: 0.1,
+            least: 3,
+            grain: 1e-9,
+        };
+        let target = Target { points: &[], surface: &surface, rules: &rules };
+        let spheres = [sphere(0.0, 0.5), sphere(1.0, 0.5), sphere(0.005, 0.501)];
+        let groups = |n: [usize; 3]| n.map(|n| vec![Vec3::zeros(); n]);
+        assert_eq!(target.needless(&spheres, &groups([2, 5, 1])), Some(2));
+        assert_eq!(target.needless(&spheres, &groups([9, 5, 4])), Some(2));
+        assert_eq!(target.needless(&spheres, &groups([4, 5, 9])), Some(0));
+        assert_eq!(target.needless(&spheres[..2], &groups([9, 5, 4])), None);
+        assert_eq!(target.needless(&spheres[..1], &groups([0, 0, 0])), None);
+    }
+}

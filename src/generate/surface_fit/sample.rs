@@ -122,3 +122,99 @@ fn draw(points: &Points, left: &[u32], seed: u64, place: u64, grain: f64) -> Opt
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{Body, Voxels, samples};
+
+    fn with_sieve(body: &Body, test: impl FnOnce(&Points, &Sieve)) {
+        let run = Run::serial();
+        let surface = Surface::new(body).unwrap();
+        let points = Points::new(body, &surface, u64::MAX, &run).unwrap();
+        let hull = Hull::new(&points.at, &points.normals, &run).unwrap();
+        let rules = Rules {
+            diameter: 1.0,
+            min_radius: 0.05,
+            most: 1.0,
+            satisfied: 0.02,
+            merge: 0.2,
+            least: 100,
+            grain: 1e-9,
+        };
+        test(&points, &Sieve { hull: &hull, surface: &surface, points: &points.at, rules: &rules });
+    }
+
+    fn sphere(x: f64, y: f64, z: f64, radius: f64) -> Sphere {
+        Sphere::new(Vec3::new(x, y, z), radius)
+    }
+
+    #[test]
+    fn spheres_that_touch_a_cube_from_inside_are_kept() {
+        with_sieve(&Body::Mesh(samples::cuboid([0.0; 3], [1.0; 3])), |_, sieve| {
+            for (s, kept) in [
+                (sphere(0.5, 0.5, 0.5, 0.5), true),
+                (sphere(0.3, 0.3, 0.3, 0.3), true),
+                (sphere(0.5, 0.5, 0.5, 0.52), true),
+                // Beyond the surface, not up to it, outside, too small.
+                (sphere(0.5, 0.5, 0.5, 0.56), false),
+                (sphere(0.5, 0.5, 0.5, 0.44), false),
+                (sphere(1.3, 0.5, 0.5, 0.3), false),
+                (sphere(0.04, 0.5, 0.5, 0.04), false),
+            ] {
+                assert_eq!(sieve.keeps(&s), kept, "{s:?}");
+            }
+        });
+    }
+
+    #[test]
+    fn a_sphere_in_a_notch_lies_in_the_hull_and_not_in_the_body() {
+        // An L of 1 × 1 × 0.5.
+        let dims = [20, 20, 10];
+        let cell = |i: usize| u8::from(i % 20 < 10 || i / 20 % 20 < 10);
+        let cells = (0..4000).map(cell).collect();
+        let body = Body::Voxels(Voxels { dims, spacing: Vec3::repeat(0.05), cells });
+        with_sieve(&body, |_, sieve| {
+            let notch = sphere(0.62, 0.62, 0.25, 0.12);
+            assert!(sieve.hull.depth(&notch.center, 0.0) > 0.15);
+            assert!(!sieve.keeps(&notch));
+            assert!(sieve.keeps(&sphere(0.25, 0.25, 0.25, 0.25)));
+            // Over the edge of the notch: inside, within the hull, beyond the body.
+            let over = sphere(0.4, 0.6, 0.25, 0.2);
+            assert!(sieve.hull.depth(&over.center, 0.0) > 0.2 && !sieve.keeps(&over));
+        });
+    }
+
+    #[test]
+    fn points_stand_evenly_and_every_kept_sphere_touches() {
+        let mut mesh = samples::cuboid([0.0; 3], [1.0, 0.5, 0.25]);
+        // One part of it far finer than the rest.
+        let [a, b, c] = mesh.faces[0];
+        let middle = mesh.vertices.len() as u32;
+        mesh.vertices.push((mesh.vertices[a as usize] + mesh.vertices[b as usize]) * 0.5);
+        mesh.faces[0] = [a, middle, c];
+        mesh.faces.push([middle, b, c]);
+        mesh.clean = false;
+        with_sieve(&Body::Mesh(mesh), |points, sieve| {
+            // Areas of the sides: 0.5, 0.25 and 0.125, of 1.75 in all.
+            for (axis, area) in [0.125, 0.25, 0.5].into_iter().enumerate() {
+                let n = points.normals.iter().filter(|n| n[axis].abs() > 0.5).count();
+                let expected = points.at.len() as f64 * 2.0 * area / 1.75;
+                assert!((n as f64 - expected).abs() < 8.0, "{axis}: {n} {expected}");
+            }
+            let run = Run::serial();
+            let sampled = sample(points, sieve, &run, &mut |_, _| true).unwrap();
+            assert!(sampled.spheres.len() > 20 && sampled.drawn > 0);
+            assert!(sampled.spheres.iter().all(|s| {
+                let depth = s.center.inf(&(Vec3::new(1.0, 0.5, 0.25) - s.center)).min();
+                (depth - s.radius).abs() < 0.04
+            }));
+            let mut rounds = 0;
+            let stopped = sample(points, sieve, &run, &mut |_, _| {
+                rounds += 1;
+                rounds < 2
+            });
+            assert!(stopped.unwrap().drawn <= ROUND as u64);
+        });
+    }
+}
