@@ -27,7 +27,7 @@ const BEYOND: f64 = 0.1;
 /// The same along the slope of the distance over so many cells, where the surface has steps: its
 /// normals then say little of the body. Taken where the cosine to the normal is less.
 const STEPPED: f64 = 0.9;
-const OVER: f64 = 2.0;
+const OVER: f64 = 4.0;
 const ALIKE: f64 = 0.95;
 /// Most steps of shrinking.
 const STEPS: usize = 40;
