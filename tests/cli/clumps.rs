@@ -277,3 +277,24 @@ fn surface_fit_finds_its_own_number() {
     let three = fit(&["-n", "3"]);
     assert!(three["n"] == 3 && three["stopped"] == "spheres", "{three}");
 }
+
+#[test]
+fn a_coverage_ends_the_set_cover() {
+    let printed = succeeds(&strs(&[
+        "clump".into(),
+        "sample:ellipsoid".into(),
+        "--method=cover".into(),
+        "--coverage=0.85".into(),
+        "--thinning-cells=24".into(),
+        "--cells-inside=20".into(),
+        "--candidates=analytic".into(),
+        "--quality=overlap".into(),
+        "--json".into(),
+    ]));
+    let v: Value = serde_json::from_str(&printed).unwrap();
+    assert_eq!(v["stopped"], "coverage");
+    assert!(
+        v["coverage"].as_f64().unwrap() > 0.83 && v["overshoot"].as_f64().unwrap() < 1e-3,
+        "{v}"
+    );
+}
