@@ -30,7 +30,7 @@ int main(void) {
   ENDS_WITH(morula_import_options, user);
   ENDS_WITH(morula_file_options, reserved);
   ENDS_WITH(morula_solid_options, user);
-  ENDS_WITH(morula_clump_options, user);
+  ENDS_WITH(morula_clump_options, overlap);
   ENDS_WITH(morula_report, threshold);
   ENDS_WITH(morula_moments, relative_error);
   ENDS_WITH(morula_overlap, moment_errors);
@@ -56,7 +56,8 @@ int main(void) {
   CHECK(none == NULL);
 
   /* Sizes that no release had. */
-  const size_t wrong[] = {0, 1, 8, sizeof(morula_clump_options) - 1, (size_t)-1};
+  const size_t first = offsetof(morula_clump_options, effort);
+  const size_t wrong[] = {0, 1, 8, first - 1, (size_t)-1};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     morula_clump_options o;
     STATUS(morula_clump_options_init(&o, wrong[i]), MORULA_STATUS_STRUCT_SIZE);
