@@ -35,8 +35,8 @@ print("""# Clumps within the surface
 Made by `scripts/inscribed.py`: the method `inscribed` on 128 cells along the longest edge, default
 seed, one thread. Coverage is measured on columns that have nothing to do with the method; the time
 is that of the generator, without reading, grid and quality. The protrusion is the greatest reach
-of any sphere beyond the mesh over the equivalent diameter: rounding (the bunny's mesh has holes,
-through which spheres bulge).
+of any sphere beyond the mesh over the equivalent diameter (the bunny has holes: there spheres reach
+beyond the lid that its inside ends at, but past no triangle).
 
 ## 90 % of the volume
 

@@ -43,7 +43,11 @@ impl Depth<'_> {
     pub(super) fn step(&self, from: &Ball, to: [f32; 3]) -> Option<Inside> {
         let there = Ball { center: to, radius: 0.0 };
         let reach = (from.radius - self.tolerance as f32).max(0.0);
-        if from.apart(&there) >= reach * reach { None } else { self.inside(to) }
+        // Through a hole of an open mesh a step within the depth may lead outside.
+        if from.apart(&there) >= reach * reach || self.field.one(to) >= 0.0 {
+            return None;
+        }
+        self.inside(to)
     }
 
     /// A medial ball that holds the ball about `p`, as the field has it.
