@@ -1,9 +1,11 @@
 //! The methods that turn a solid into a clump.
 
+mod ball;
 mod baselines;
 pub mod best;
 pub mod cover;
 pub mod mss;
+mod select;
 mod surface_fit;
 
 use crate::clump::{Clump, Stopped};

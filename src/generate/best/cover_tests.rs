@@ -1,9 +1,9 @@
 //! Lengths of columns against the quality figures, and changes against whole sums.
 
-use super::super::ball::Ball;
 use super::super::random::Random;
 use super::super::test_bodies::bodies;
 use super::*;
+use crate::generate::ball::Ball;
 use crate::measure::{QualityOptions, quality};
 use crate::run::Run;
 

@@ -2,9 +2,9 @@
 //! orientation: faces parallel to the columns would be exploited on a straight one. Everything
 //! is in units of the distance between columns, with column (a, b) at the place (a, b).
 
-use super::ball::Ball;
 use super::random::Random;
 use crate::error::{Error, Result, reserve};
+use crate::generate::ball::Ball;
 use crate::math::Vec3;
 use crate::run::Pool;
 use crate::solid::columns::Lattice;

@@ -1,8 +1,8 @@
 //! What a sphere's exposed surface says about where the sphere should go: the normal equations of
 //! a Gauss–Newton step with Huber's loss on the signed distance.
 
-use super::ball::Ball;
 use super::field::Field;
+use crate::generate::ball::Ball;
 use wide::f32x8;
 
 /// What overlap and protrusion weigh.

@@ -1,7 +1,7 @@
 //! Balls about the medial axis, grown from points inside.
 
-use super::ball::Ball;
 use super::field::Field;
+use crate::generate::ball::Ball;
 
 /// Of a cell: how much less than the shortest way to the surface a radius may be.
 const TOLERANCE: f32 = 0.2;

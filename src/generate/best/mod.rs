@@ -6,7 +6,6 @@
 //! into the volume between the surfaces; then single balls are moved to where they help more,
 //! with what is around them refined, and kept when the mismatch by exact columns falls.
 
-mod ball;
 mod chords;
 mod cover;
 mod dexels;
@@ -14,7 +13,6 @@ mod directions;
 mod effort;
 mod exposed;
 mod field;
-mod greedy;
 pub(super) mod inscribed;
 mod medial;
 mod moves;

@@ -4,7 +4,6 @@
 //! In two stages: what looks hopeless after a rough refinement is not refined further; and what
 //! few directions gain by chance is gone when many look.
 
-use super::ball::Ball;
 use super::cover::Look;
 use super::dexels::Seen;
 use super::directions::Directions;
@@ -12,6 +11,7 @@ use super::medial;
 use super::random::Random;
 use super::refine::{Refiner, Schedule, Task};
 use super::state::State;
+use crate::generate::ball::Ball;
 
 /// Part of the moves that shake a ball where it is.
 const SHAKEN: f64 = 0.25;

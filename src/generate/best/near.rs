@@ -1,7 +1,7 @@
 //! Which balls may hide parts of which: lists that stay right while no ball has moved and grown
 //! by more than half of a slack, so that they are made anew only now and then.
 
-use super::ball::Ball;
+use crate::generate::ball::Ball;
 
 /// Up to so many balls, all are compared with all.
 const FEW: usize = 96;

@@ -2,12 +2,12 @@
 //! surface lies on the target's, in the sense of Huber's loss; its width falls from iteration to
 //! iteration, so that least squares of distances become least volume between the surfaces.
 
-use super::ball::Ball;
 use super::directions::Directions;
 use super::exposed::{Normal, Sampler, Scratch, Weights};
 use super::field::Field;
 use super::near::Near;
 use super::random::Random;
+use crate::generate::ball::Ball;
 use crate::run::Pool;
 use wide::f32x8;
 

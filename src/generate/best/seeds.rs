@@ -1,14 +1,14 @@
 //! The start of a search: a greedy cover of points inside by grown medial balls.
 
-use super::ball::Ball;
 use super::dexels::Dexels;
 use super::effort::Plan;
 use super::field::Field;
-use super::greedy::{Points, choose};
 use super::medial;
 use super::random::Random;
 use super::refine::Radii;
 use crate::error::{Result, reserve};
+use crate::generate::ball::Ball;
+use crate::generate::select::choose;
 
 /// Candidates are larger than fits by this factor: balls that reach out a little everywhere cover
 /// better for the same mismatch.
@@ -32,9 +32,9 @@ pub(super) fn seeds(
             .into_iter()
             .map(|p| fit(medial::ball(field, p, size))),
     );
-    let mut points = Points::new(dexels.points(plan.points, random)?);
+    let points = dexels.points(plan.points, random)?;
     let mut balls = reserve("balls", n)?;
-    balls.extend(choose(&mut points, &candidates, n).into_iter().map(|i| candidates[i]));
+    balls.extend(choose(points, &candidates, n)?.into_iter().map(|i| candidates[i]));
     // Where all points are held before there are enough: balls about more of the medial axis.
     let more = n - balls.len();
     balls.extend(

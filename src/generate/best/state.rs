@@ -1,7 +1,6 @@
 //! A clump on its way down: its balls, what the columns hold of it, what each ball is worth, and
 //! where something is missing.
 
-use super::ball::Ball;
 use super::cover::{Cover, Lengths, Look};
 use super::dexels::{Dexels, Seen};
 use super::exposed::Weights;
@@ -10,6 +9,7 @@ use super::piles::Piles;
 use super::random::Random;
 use super::refine::Radii;
 use crate::error::{Result, filled, reserve};
+use crate::generate::ball::Ball;
 
 /// What all parts of the search read.
 #[derive(Clone, Copy)]

@@ -2,9 +2,10 @@
 //! their part inside, and cells of twice the edge within (Yuan 2019, section 3.1).
 
 use super::fill::{CUT, FULL, fill};
-use super::points::{Ball, Point, Points};
 use super::turned::Turned;
 use crate::error::{Error, Result, fits, push};
+use crate::generate::ball::Ball;
+use crate::generate::select::{Point, Points};
 use crate::run::Run;
 use crate::solid::Grid;
 

@@ -6,7 +6,6 @@ mod candidates;
 mod cells;
 mod cliques;
 mod fill;
-mod points;
 mod problem;
 mod simple;
 mod thinning;

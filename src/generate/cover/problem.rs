@@ -3,9 +3,10 @@
 use super::CoverOptions;
 use super::candidates::candidates;
 use super::cells::Cells;
-use super::points::{Ball, Choice};
 use super::turned::Turned;
 use crate::error::{Result, reserve};
+use crate::generate::ball::Ball;
+use crate::generate::select::Choice;
 use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::solid::Solid;
@@ -91,7 +92,7 @@ impl<'a> Problem<'a> {
 
     /// The spheres of the greedy cover, one after the other, each the one that adds most.
     pub fn solve(&self, run: &Run) -> Result<impl Iterator<Item = Step>> {
-        let mut choice = Choice::new(self.cells.points.clone(), self.balls()?, run)?;
+        let mut choice = Choice::new(self.cells.points.clone(), self.balls()?, run.pool())?;
         let mut covered = 0;
         Ok(std::iter::from_fn(move || {
             let (i, gain) = choice.next()?;

@@ -1,6 +1,5 @@
 //! The climb: balls take steps that cover more, one after the other; no other step is taken.
 
-use super::super::ball::Ball;
 use super::super::cover::{Cover, Lengths, Look};
 use super::super::dexels::{Dexels, Seen};
 use super::super::directions::Directions;
@@ -8,6 +7,7 @@ use super::super::exposed::{Scratch, outward};
 use super::super::random::Random;
 use super::depth::{Depth, Inside};
 use crate::error::{Result, filled};
+use crate::generate::ball::Ball;
 use wide::f32x8;
 
 /// Directions on a ball.

@@ -12,10 +12,10 @@ use super::super::GenerateOptions;
 use super::bounds;
 use super::dexels::Dexels;
 use super::field::Field;
-use super::greedy::{Points, choose};
 use super::random::Random;
 use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result, filled, reserve};
+use crate::generate::select::choose;
 use crate::math::Sphere;
 use crate::run::Run;
 use crate::solid::Solid;
@@ -55,8 +55,8 @@ pub(in crate::generate) fn inscribed(
     let places = dexels.points(plan.candidates, &mut random)?;
     candidates.extend(places.into_iter().map(|p| depth.nearly(p)));
     candidates.retain(|b| f64::from(b.radius) >= least);
-    let mut points = Points::new(dexels.points(plan.points, &mut random)?);
-    let chosen = choose(&mut points, &candidates, n);
+    let points = dexels.points(plan.points, &mut random)?;
+    let chosen = choose(points, &candidates, n)?;
     // Where all points are covered before there are enough: any further ones.
     let mut left = filled("candidates", candidates.len(), true)?;
     chosen.iter().for_each(|&i| left[i] = false);

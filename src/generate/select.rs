@@ -5,21 +5,15 @@
 //! or holds whole is not looked at point by point. Weights are whole numbers, so that sums do not
 //! depend on their order and the lazy choice (Minoux 1978) is that of the plain algorithm.
 
+use super::ball::Ball;
 use crate::error::{Result, filled, reserve};
-use crate::run::Run;
+use crate::run::Pool;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use wide::f32x8;
 
 /// A point and its weight.
 pub(super) type Point = ([f32; 3], u32);
-
-/// A ball.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Ball {
-    pub center: [f32; 3],
-    pub radius: f32,
-}
 
 /// Chunks of points under one box.
 const GROUP: usize = 16;
@@ -227,9 +221,9 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    pub(super) fn new(points: Points, balls: Vec<Ball>, run: &Run) -> Result<Choice> {
+    pub(super) fn new(points: Points, balls: Vec<Ball>, pool: &Pool) -> Result<Choice> {
         let chunks: Vec<&[Ball]> = balls.chunks(CHUNK).collect();
-        let gains = run.pool().map(chunks.len(), |i| {
+        let gains = pool.map(chunks.len(), |i| {
             let some = chunks.get(i).copied().unwrap_or_default();
             some.iter().map(|b| points.gain(b)).collect::<Vec<u64>>()
         });
@@ -259,6 +253,19 @@ impl Choice {
         }
         None
     }
+}
+
+/// Up to `n` of `balls`, each the one that holds most points that those before do not; their
+/// numbers.
+pub(super) fn choose(points: Vec<[f32; 3]>, balls: &[Ball], n: usize) -> Result<Vec<usize>> {
+    let mut set: Vec<Point> = reserve("the points of the cover", points.len())?;
+    set.extend(points.into_iter().map(|p| (p, 1)));
+    let mut copies = reserve("candidates", balls.len())?;
+    copies.extend_from_slice(balls);
+    let mut choice = Choice::new(Points::new(vec![set])?, copies, &Pool::serial())?;
+    let mut chosen = reserve("balls", n.min(balls.len()))?;
+    chosen.extend(std::iter::from_fn(|| choice.next()).map(|(i, _)| i).take(n));
+    Ok(chosen)
 }
 
 /// Sorts so that points next to each other in the list are next to each other in space: halves
@@ -333,9 +340,9 @@ mod tests {
                 .collect();
             let expected = naive(&all, &balls);
             for threads in [1, 2] {
-                let run = Run::new(threads).unwrap();
+                let pool = Pool::new(threads).unwrap();
                 let mut choice =
-                    Choice::new(Points::new(sets.clone()).unwrap(), balls.clone(), &run).unwrap();
+                    Choice::new(Points::new(sets.clone()).unwrap(), balls.clone(), &pool).unwrap();
                 let total = choice.points.left();
                 assert_eq!(total, all.iter().map(|p| u64::from(p.1)).sum::<u64>());
                 let mut chosen = Vec::new();
@@ -356,7 +363,7 @@ mod tests {
         let balls: Vec<Ball> =
             (0..1000).map(|_| Ball { center: noise.point(), radius: 0.08 }).collect();
         let points = Points::new(vec![points]).unwrap();
-        let mut choice = Choice::new(points, balls, &Run::serial()).unwrap();
+        let mut choice = Choice::new(points, balls, &Pool::serial()).unwrap();
         for _ in 0..100 {
             assert!(choice.next().is_some());
         }
