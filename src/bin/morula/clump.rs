@@ -4,11 +4,12 @@ use crate::covering::Covering;
 use crate::fail::{About, Done, Fail};
 use crate::input::parse::{finite, not_negative, positive, whole};
 use crate::input::{self, Fineness, Reading};
+use crate::method::{EffortArg, MethodArg};
 use crate::progress::Bar;
 use crate::write::{self, ClumpFormat};
 use clap::ValueEnum;
 use morula::error::count;
-use morula::generate::{Effort, GenerateOptions, Method, OVERLAP, generate};
+use morula::generate::{GenerateOptions, Method, OVERLAP, generate};
 use morula::measure::QualityOptions;
 use morula::{Clump, Run, Shape, Solid};
 use serde_json::{Value, json};
@@ -97,40 +98,6 @@ struct Making {
     /// body, 0 to 1; 0: no sphere overlaps another
     #[arg(long, value_name = "PART", default_value_t = OVERLAP, value_parser = not_negative)]
     overlap: f64,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum MethodArg {
-    /// Local maxima of the distance transform (paper of Buchele, Pöschel and Müller)
-    Mss,
-    /// Least mismatch for the number of spheres
-    Best,
-    /// Spheres fitted to the surface (paper of Price, Murariu and Morrison); finds its own number
-    SurfaceFit,
-    /// Most coverage with no sphere beyond the surface
-    Inscribed,
-    /// Largest inscribed spheres by thinning and greedy set cover (paper of Yuan): none reaches
-    /// beyond the surface
-    Cover,
-    /// The greatest ball in what is left, again and again (CLUMP)
-    Euclidean,
-    /// The greatest balls that touch the surface from inside at its points
-    #[value(name = "ferellec-mcdowell")]
-    FerellecMcDowell,
-    /// Balls about the axis of a body of revolution
-    Favier,
-    /// Balls about the cells of the grid, those that cover most first (Garcia; Li, Xu and Meng)
-    UniformGrid,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum EffortArg {
-    /// Milliseconds
-    Draft,
-    /// About a tenth of a second for a hundred spheres
-    Normal,
-    /// Seconds
-    Thorough,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -254,22 +221,8 @@ impl Args {
             || coverage.is_some()
             || matches!(m.method, MethodArg::SurfaceFit);
         GenerateOptions {
-            method: match m.method {
-                MethodArg::Mss => Method::Mss,
-                MethodArg::Best => Method::Best,
-                MethodArg::SurfaceFit => Method::SurfaceFit,
-                MethodArg::Inscribed => Method::Inscribed,
-                MethodArg::Cover => Method::Cover,
-                MethodArg::Euclidean => Method::Euclidean,
-                MethodArg::FerellecMcDowell => Method::FerellecMcDowell,
-                MethodArg::Favier => Method::Favier,
-                MethodArg::UniformGrid => Method::UniformGrid,
-            },
-            effort: match m.effort {
-                EffortArg::Draft => Effort::Draft,
-                EffortArg::Normal => Effort::Normal,
-                EffortArg::Thorough => Effort::Thorough,
-            },
+            method: m.method.into(),
+            effort: m.effort.into(),
             spheres: self.spheres.unwrap_or(if unbounded { 0 } else { 50 }),
             mismatch: m.mismatch.unwrap_or(0.0),
             min_radius: m.min_radius.unwrap_or(0.0),

@@ -10,6 +10,7 @@ mod fail;
 mod info;
 mod input;
 mod labels;
+mod method;
 mod progress;
 mod sample;
 mod view;
