@@ -100,6 +100,9 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_DRAFT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_NORMAL = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_THOROUGH = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_SYMMETRY_NONE = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_SYMMETRY_AUTO = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_SYMMETRY_PLANES = 2_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_ENDS_SURFACE = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_ENDS_CURVE = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_CANDIDATES_THINNED = 0_c_int32_t
@@ -228,6 +231,17 @@ module morula
     integer(c_int32_t) :: cells_inside = 0_c_int32_t
     real(c_double) :: tolerance = 0.0_c_double
     real(c_double) :: overlap = 0.0_c_double
+    real(c_double) :: overshoot_weight = 0.0_c_double
+    real(c_double) :: max_protrusion = 0.0_c_double
+    real(c_double) :: max_radius = 0.0_c_double
+    real(c_double) :: smoothness = 0.0_c_double
+    integer(c_int32_t) :: connected = 0_c_int32_t
+    integer(c_int32_t) :: equal_volume = 0_c_int32_t
+    integer(c_int32_t) :: symmetry = 0_c_int32_t
+    integer(c_int32_t) :: symmetry_plane_count = 0_c_int32_t
+    type(c_ptr) :: half_spaces = c_null_ptr
+    integer(c_size_t) :: half_space_count = 0_c_size_t
+    type(c_ptr) :: symmetry_planes = c_null_ptr
   end type morula_clump_options
 
   type, bind(c), public :: morula_overlap

@@ -253,6 +253,15 @@
 /// MORULA_METHOD_BEST: seconds.
 #define MORULA_EFFORT_THOROUGH 2
 
+/// MORULA_METHOD_BEST: no symmetry but by chance (the default).
+#define MORULA_SYMMETRY_NONE 0
+
+/// MORULA_METHOD_BEST: the target's mirror planes through its centre of mass, and exchanges of axes.
+#define MORULA_SYMMETRY_AUTO 1
+
+/// MORULA_METHOD_BEST: the mirror planes in symmetry_planes.
+#define MORULA_SYMMETRY_PLANES 2
+
 /// MORULA_METHOD_COVER: thin to a medial surface (the default).
 #define MORULA_ENDS_SURFACE 0
 
@@ -599,6 +608,33 @@ typedef struct morula_clump_options {
   /// MORULA_METHOD_EUCLIDEAN: by which part of its radius a sphere is shrunk before it is taken
   /// from the body; 0: the spheres do not overlap. Default 0.9.
   double overlap;
+  /// How many times as much as target that is not covered, clump beyond the target counts. This
+  /// and all below for MORULA_METHOD_BEST alone. Default 1.
+  double overshoot_weight;
+  /// How far a sphere may reach beyond the surface, in the caller's unit; 0: as far as is best.
+  /// Default 0.
+  double max_protrusion;
+  /// Greatest radius, in the caller's unit; 0: as large as is best. Default 0.
+  double max_radius;
+  /// Weight of the distance between the surfaces against D; 0: D alone. Default 0.
+  double smoothness;
+  /// 1: the spheres hang together by overlaps. Default 0.
+  int32_t connected;
+  /// 1: the union of the spheres has the volume of the target. Default 0.
+  int32_t equal_volume;
+  /// One of MORULA_SYMMETRY_*. Default MORULA_SYMMETRY_NONE.
+  int32_t symmetry;
+  /// Number of symmetry_planes. Default 0.
+  uint32_t symmetry_plane_count;
+  /// Of each half-space that no sphere may leave nx, ny, nz, d: the points p with n . p <= d, in
+  /// the caller's frame and unit; n of any length but 0. NULL with a count of 0: none. Copied
+  /// before the call returns.
+  const double *half_spaces;
+  /// Number of half_spaces. Default 0.
+  size_t half_space_count;
+  /// For MORULA_SYMMETRY_PLANES, the normals of mirror planes through the centre of mass: x, y, z
+  /// each. Copied before the call returns.
+  const double *symmetry_planes;
 } morula_clump_options;
 
 /// How far the union of the spheres C is from the target S, by volume.

@@ -30,7 +30,7 @@ int main(void) {
   ENDS_WITH(morula_import_options, user);
   ENDS_WITH(morula_file_options, reserved);
   ENDS_WITH(morula_solid_options, user);
-  ENDS_WITH(morula_clump_options, overlap);
+  ENDS_WITH(morula_clump_options, symmetry_planes);
   ENDS_WITH(morula_report, threshold);
   ENDS_WITH(morula_moments, relative_error);
   ENDS_WITH(morula_overlap, moment_errors);

@@ -102,6 +102,13 @@ pub const MORULA_EFFORT_NORMAL: i32 = 1;
 /// MORULA_METHOD_BEST: seconds.
 pub const MORULA_EFFORT_THOROUGH: i32 = 2;
 
+/// MORULA_METHOD_BEST: no symmetry but by chance (the default).
+pub const MORULA_SYMMETRY_NONE: i32 = 0;
+/// MORULA_METHOD_BEST: the target's mirror planes through its centre of mass, and exchanges of axes.
+pub const MORULA_SYMMETRY_AUTO: i32 = 1;
+/// MORULA_METHOD_BEST: the mirror planes in symmetry_planes.
+pub const MORULA_SYMMETRY_PLANES: i32 = 2;
+
 /// MORULA_METHOD_COVER: thin to a medial surface (the default).
 pub const MORULA_ENDS_SURFACE: i32 = 0;
 /// MORULA_METHOD_COVER: thin to curves, for shapes about an axis.

@@ -10,8 +10,10 @@ use super::structs::*;
 use crate::clump::Clump;
 use crate::error::{Error, Result};
 use crate::generate::cover::{Candidates, CoverOptions, Ends};
-use crate::generate::{Effort, GenerateOptions, Method, generate};
-use crate::math::{Moments, UnitFrame};
+use crate::generate::{
+    BestOptions, Effort, GenerateOptions, HalfSpace, Method, Symmetry, generate,
+};
+use crate::math::{Moments, UnitFrame, Vec3};
 use crate::measure::QualityOptions;
 use crate::run::{Counters, Run};
 use crate::solid::Solid;
@@ -43,6 +45,33 @@ struct Asked<'a> {
     run: Run<'a>,
     wants: u32,
     body_frame: bool,
+}
+
+/// `count` rows of N numbers.
+unsafe fn rows<'a, const N: usize>(
+    pointer: *const f64,
+    count: usize,
+    name: &str,
+) -> Result<&'a [[f64; N]]> {
+    unsafe { slice(pointer.cast::<[f64; N]>(), count, name) }
+}
+
+unsafe fn symmetry(o: &morula_clump_options) -> Result<Symmetry> {
+    let count = o.symmetry_plane_count as usize;
+    if o.symmetry != MORULA_SYMMETRY_PLANES && count > 0 {
+        return Err(Error::InvalidArgument(format!(
+            "symmetry_plane_count is {count}, but symmetry is not MORULA_SYMMETRY_PLANES"
+        )));
+    }
+    match o.symmetry {
+        MORULA_SYMMETRY_NONE => Ok(Symmetry::None),
+        MORULA_SYMMETRY_AUTO => Ok(Symmetry::Auto),
+        MORULA_SYMMETRY_PLANES => {
+            let normals = unsafe { rows::<3>(o.symmetry_planes, count, "symmetry_planes")? };
+            Ok(Symmetry::Planes(normals.iter().map(|n| Vec3::from(*n)).collect()))
+        }
+        other => Err(Error::InvalidArgument(format!("symmetry is {other}, no choice"))),
+    }
 }
 
 unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
@@ -79,10 +108,24 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
         MORULA_CANDIDATES_ANALYTIC => Candidates::Analytic,
         other => return no_choice("candidates", other),
     };
-    let confine = match o.confine {
-        0 => false,
-        1 => true,
-        other => return no_choice("confine", other),
+    let yes = |name: &str, value: i32| match value {
+        0 => Ok(false),
+        1 => Ok(true),
+        other => Err(Error::InvalidArgument(format!("{name} is {other}, neither 0 nor 1"))),
+    };
+    let confine = yes("confine", o.confine)?;
+    let best = BestOptions {
+        overshoot_weight: o.overshoot_weight,
+        max_protrusion: o.max_protrusion,
+        max_radius: o.max_radius,
+        half_spaces: unsafe { rows::<4>(o.half_spaces, o.half_space_count, "half_spaces")? }
+            .iter()
+            .map(|&[x, y, z, offset]| HalfSpace { normal: Vec3::new(x, y, z), offset })
+            .collect(),
+        connected: yes("connected", o.connected)?,
+        equal_volume: yes("equal_volume", o.equal_volume)?,
+        smoothness: o.smoothness,
+        symmetry: unsafe { symmetry(&o)? },
     };
     let body_frame = match o.frame {
         MORULA_FRAME_INPUT => false,
@@ -138,6 +181,7 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
         tolerance: o.tolerance,
         overlap: o.overlap,
         effort,
+        best,
         quality: measured.then_some(quality),
     };
     let mut run = run(o.threads, o.progress, o.user)?.with_seed(o.seed);

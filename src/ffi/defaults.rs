@@ -68,7 +68,7 @@ versioned!(
     }
 );
 versioned!(
-    morula_clump_options, 120, added 128, 152, 168;
+    morula_clump_options, 120, added 128, 152, 168, 240;
     morula_clump_options {
         struct_size: size_of::<Self>(),
         spheres: 50,
@@ -97,6 +97,17 @@ versioned!(
         cells_inside: 50,
         tolerance: 0.0,
         overlap: crate::generate::OVERLAP,
+        overshoot_weight: 1.0,
+        max_protrusion: 0.0,
+        max_radius: 0.0,
+        smoothness: 0.0,
+        connected: 0,
+        equal_volume: 0,
+        symmetry: MORULA_SYMMETRY_NONE,
+        symmetry_plane_count: 0,
+        half_spaces: std::ptr::null(),
+        half_space_count: 0,
+        symmetry_planes: std::ptr::null(),
     }
 );
 /// All-zero structs: every field of these is a number.

@@ -160,6 +160,33 @@ pub struct morula_clump_options {
     /// MORULA_METHOD_EUCLIDEAN: by which part of its radius a sphere is shrunk before it is taken
     /// from the body; 0: the spheres do not overlap. Default 0.9.
     pub overlap: f64,
+    /// How many times as much as target that is not covered, clump beyond the target counts. This
+    /// and all below for MORULA_METHOD_BEST alone. Default 1.
+    pub overshoot_weight: f64,
+    /// How far a sphere may reach beyond the surface, in the caller's unit; 0: as far as is best.
+    /// Default 0.
+    pub max_protrusion: f64,
+    /// Greatest radius, in the caller's unit; 0: as large as is best. Default 0.
+    pub max_radius: f64,
+    /// Weight of the distance between the surfaces against D; 0: D alone. Default 0.
+    pub smoothness: f64,
+    /// 1: the spheres hang together by overlaps. Default 0.
+    pub connected: i32,
+    /// 1: the union of the spheres has the volume of the target. Default 0.
+    pub equal_volume: i32,
+    /// One of MORULA_SYMMETRY_*. Default MORULA_SYMMETRY_NONE.
+    pub symmetry: i32,
+    /// Number of symmetry_planes. Default 0.
+    pub symmetry_plane_count: u32,
+    /// Of each half-space that no sphere may leave nx, ny, nz, d: the points p with n . p <= d, in
+    /// the caller's frame and unit; n of any length but 0. NULL with a count of 0: none. Copied
+    /// before the call returns.
+    pub half_spaces: *const f64,
+    /// Number of half_spaces. Default 0.
+    pub half_space_count: usize,
+    /// For MORULA_SYMMETRY_PLANES, the normals of mirror planes through the centre of mass: x, y, z
+    /// each. Copied before the call returns.
+    pub symmetry_planes: *const f64,
 }
 
 /// What was found in an input and what was done about it. Lengths, areas and

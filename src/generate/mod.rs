@@ -14,7 +14,7 @@ use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
 use crate::solid::Solid;
 pub use baselines::OVERLAP;
-pub use best::Effort;
+pub use best::{BestOptions, Effort, HalfSpace, Symmetry};
 pub use cover::CoverOptions;
 
 /// A method.
@@ -86,6 +86,8 @@ pub struct GenerateOptions {
     pub overlap: f64,
     /// How long [`Method::Best`] and [`Method::Inscribed`] look for a clump.
     pub effort: Effort,
+    /// What a clump by [`Method::Best`] must keep to.
+    pub best: BestOptions,
     /// Quality to measure on the result; `None` costs nothing.
     pub quality: Option<QualityOptions>,
 }
@@ -105,6 +107,7 @@ impl Default for GenerateOptions {
             tolerance: 0.0,
             overlap: OVERLAP,
             effort: Effort::Normal,
+            best: BestOptions::default(),
             quality: None,
         }
     }
@@ -187,6 +190,14 @@ fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
         return Err(Error::InvalidArgument(
             "tolerance is an option of the methods euclidean, ferellec-mcdowell, favier and \
              uniform-grid"
+                .into(),
+        ));
+    }
+    o.best.check(o.min_radius)?;
+    if o.method != Method::Best && o.best != BestOptions::default() {
+        return Err(Error::InvalidArgument(
+            "overshoot_weight, max_protrusion, max_radius, half-spaces, connected, equal_volume, \
+             smoothness and symmetry are options of the method best"
                 .into(),
         ));
     }

@@ -1,6 +1,7 @@
 //! `morula clump`: a shape in, spheres out.
 
 use crate::covering::Covering;
+use crate::demands::Demands;
 use crate::fail::{About, Done, Fail};
 use crate::input::parse::{finite, not_negative, positive, whole};
 use crate::input::{self, Fineness, Reading};
@@ -55,6 +56,8 @@ pub struct Args {
     making: Making,
     #[command(flatten)]
     covering: Covering,
+    #[command(flatten)]
+    demands: Demands,
     #[command(flatten)]
     fineness: Fineness,
     #[command(flatten)]
@@ -231,6 +234,7 @@ impl Args {
             confine: m.confine,
             coverage: coverage.unwrap_or(0.0),
             cover: self.covering.options(),
+            best: self.demands.options(),
             tolerance: m.tolerance,
             overlap: m.overlap,
             quality: self.measures().then(|| QualityOptions {

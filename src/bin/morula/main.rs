@@ -6,6 +6,7 @@
 
 mod clump;
 mod covering;
+mod demands;
 mod fail;
 mod info;
 mod input;

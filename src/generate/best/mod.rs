@@ -17,6 +17,7 @@ pub(super) mod inscribed;
 mod medial;
 mod moves;
 mod near;
+mod options;
 mod piles;
 mod random;
 mod refine;
@@ -27,6 +28,7 @@ mod state;
 mod test_bodies;
 
 pub use effort::Effort;
+pub use options::{BestOptions, HalfSpace, Symmetry};
 
 use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
@@ -157,6 +159,9 @@ fn check(o: &GenerateOptions) -> Result<usize> {
     }
     if o.confine {
         return only_mss("confine");
+    }
+    if o.best != BestOptions::default() {
+        return Err(Error::Unsupported("demands on the clumps of best are not made yet".into()));
     }
     if o.spheres == 0 {
         return Err(Error::InvalidArgument(

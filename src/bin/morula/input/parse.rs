@@ -54,6 +54,13 @@ pub fn triple(text: &str) -> Result<[f64; 3], String> {
     }
 }
 
+/// N numbers with commas.
+pub fn numbers<const N: usize>(text: &str) -> Result<[f64; N], String> {
+    let values = text.split(',').map(finite).collect::<Result<Vec<_>, _>>()?;
+    let count = values.len();
+    values.try_into().map_err(|_| format!("{text} holds {count} numbers, not {N}"))
+}
+
 pub fn raw(text: &str) -> Result<Raw, String> {
     let mut parts = text.split(':');
     let dims = parts
