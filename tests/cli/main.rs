@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod clumps;
+mod compare;
 mod failures;
 mod options;
 mod pictures;

@@ -5,6 +5,7 @@
 //! early ends the program quietly with 0.
 
 mod clump;
+mod compare;
 mod covering;
 mod demands;
 mod fail;
@@ -40,6 +41,8 @@ enum Command {
     Sample(sample::Args),
     /// Draw a clump beside its target
     View(Box<view::Args>),
+    /// Make clumps of a shape by every method, side by side in a table and a picture
+    Compare(Box<compare::Args>),
 }
 
 fn main() -> ExitCode {
@@ -60,6 +63,7 @@ fn main() -> ExitCode {
         Command::Info(args) => info::run(args),
         Command::Sample(args) => sample::run(args),
         Command::View(args) => view::run(args),
+        Command::Compare(args) => compare::run(args),
     };
     match done {
         Ok(()) | Err(Fail::Pipe) => ExitCode::SUCCESS,

@@ -25,6 +25,13 @@ impl Bar {
         Bar(Some(bar))
     }
 
+    /// What is being done now.
+    pub fn say(&self, what: &str) {
+        if let Some(bar) = &self.0 {
+            bar.set_message(what.to_string());
+        }
+    }
+
     /// A run that reports to this bar.
     pub fn attach<'a>(&self, run: Run<'a>) -> Run<'a> {
         match &self.0 {

@@ -2,6 +2,21 @@
 
 use super::canvas::{Rgb, mix, srgb};
 
+/// A plain body.
+pub fn body() -> Rgb {
+    srgb(206, 196, 178)
+}
+
+/// What is read first.
+pub fn dark() -> Rgb {
+    srgb(28, 30, 36)
+}
+
+/// What is read second.
+pub fn soft() -> Rgb {
+    srgb(96, 100, 110)
+}
+
 /// Blue below zero (the clump stays inside the surface), light grey at zero,
 /// red above (it reaches beyond); `t` in [−1, 1].
 pub fn diverging(t: f32) -> Rgb {

@@ -2,15 +2,16 @@
 //! the middle the clump, coloured by how far its surface lies from the
 //! target's, right a section through both.
 
-mod buffer;
-mod camera;
-mod canvas;
-mod colour;
+pub mod buffer;
+pub mod camera;
+pub mod canvas;
+pub mod colour;
+pub mod error;
 mod font;
 mod read;
 mod section;
-mod shade;
-mod surface;
+pub mod shade;
+pub mod surface;
 
 use crate::clump::{Frame, equivalent_diameter};
 use crate::fail::{About, Done, Fail};
@@ -20,14 +21,14 @@ use crate::progress::Bar;
 use crate::write;
 use buffer::Buffer;
 use camera::Camera;
-use canvas::{Align, Canvas, Rgb, srgb};
+use canvas::{Align, Canvas, Rgb};
 use morula::measure::{Quality, QualityOptions, quality};
 use morula::{Run, Solid, Sphere};
 use shade::Light;
 use std::path::Path;
 
 /// Samples along each edge of a pixel.
-const FINE: usize = 3;
+pub const FINE: usize = 3;
 
 #[derive(clap::Args)]
 pub struct Args {
@@ -150,53 +151,22 @@ fn picture(
 
     let mut body = Buffer::new(layout.panel[0], layout.panel[1], FINE, &camera)?;
     body.triangles(target.into_iter());
-    let stone = srgb(206, 196, 178);
     let place = |i: usize| [layout.left[i], layout.top];
-    shade::draw(&mut canvas, place(0), &body, FINE, Light::Body, run.pool(), |_, _, _| stone);
+    shade::draw(&mut canvas, place(0), &body, FINE, Light::Body, run.pool(), |_, _, _| {
+        colour::body()
+    });
 
     let mut clump = Buffer::new(layout.panel[0], layout.panel[1], FINE, &camera)?;
     clump.spheres(&unit, run.pool());
     let diameter = equivalent_diameter(solid.unit_moments().volume);
-    let errors = errors(solid, &clump, diameter, run)?;
-    let end = args.scale.unwrap_or_else(|| fitting_scale(&errors));
+    let errors = error::errors(solid, &clump, diameter, run)?;
+    let end = args.scale.unwrap_or_else(|| error::fitting_scale(&errors));
     shade::draw(&mut canvas, place(1), &clump, FINE, Light::Data, run.pool(), |x, y, _| {
         colour::diverging(errors[x + clump.width * y] / end as f32)
     });
     section::draw(&mut canvas, place(2), layout.panel, &camera, solid, &unit, run)?;
     words(&mut canvas, &layout, args, spheres.len(), measured, solid, end);
     Ok(canvas)
-}
-
-/// Signed distance from the target's surface at every sample of the clump, in
-/// percent of the equivalent diameter; positive beyond the surface.
-fn errors(solid: &Solid, clump: &Buffer, diameter: f64, run: &Run) -> morula::Result<Vec<f32>> {
-    let (field, surface) = (solid.distance(run)?, solid.surface(run)?);
-    let grid = solid.grid();
-    let last = grid.center(grid.dims[0] - 1, grid.dims[1] - 1, grid.dims[2] - 1);
-    let first = grid.center(0, 0, 0);
-    let mut out = morula::error::filled("surface errors", clump.samples.len(), 0f32)?;
-    run.pool().chunks_mut(&mut out, clump.width, |y, row| {
-        for (x, e) in row.iter_mut().enumerate() {
-            let s = &clump.samples[x + clump.width * y];
-            if s.hit() {
-                let [u, v] = clump.plane(x, y);
-                let p = clump.camera.unproject([u, v, f64::from(s.depth)]);
-                let on_grid = (0..3).all(|a| p[a] >= first[a] && p[a] <= last[a]);
-                let d =
-                    if on_grid { grid.trilinear(field, &p) } else { surface.signed_distance(&p) };
-                *e = (100.0 * d / diameter) as f32;
-            }
-        }
-    });
-    Ok(out)
-}
-
-/// A round figure that all but 2 % of what is seen lies within.
-fn fitting_scale(errors: &[f32]) -> f64 {
-    let mut sizes: Vec<f32> = errors.iter().filter(|e| **e != 0.0).map(|e| e.abs()).collect();
-    sizes.sort_by(f32::total_cmp);
-    let at = (sizes.len() * 98 / 100).min(sizes.len().saturating_sub(1));
-    colour::round_up(f64::from(sizes.get(at).copied().unwrap_or(1.0)))
 }
 
 fn words(
@@ -208,8 +178,7 @@ fn words(
     solid: &Solid,
     end: f64,
 ) {
-    let dark = srgb(28, 30, 36);
-    let soft = srgb(96, 100, 110);
+    let (dark, soft) = (colour::dark(), colour::soft());
     let t = layout.text;
     let diameter = equivalent_diameter(solid.moments().volume);
     let name = Path::new(&args.input).file_name().and_then(|n| n.to_str()).unwrap_or(&args.input);
@@ -227,31 +196,9 @@ fn words(
     for (i, title) in ["target", "clump, coloured by surface error", "section"].iter().enumerate() {
         canvas.text(title, layout.middle(i), 4.6 * t, t, Align::Centre, soft);
     }
-    bar(canvas, layout, end, dark, soft);
+    let at = [layout.middle(1), layout.foot + 0.8 * t];
+    error::bar(canvas, at, 0.34 * layout.panel[0] as f32, t, end);
     legend(canvas, layout, dark);
-}
-
-/// The scale of the surface error, under the clump.
-fn bar(canvas: &mut Canvas, layout: &Layout, end: f64, dark: Rgb, soft: Rgb) {
-    let t = layout.text;
-    let half = 0.34 * layout.panel[0] as f32;
-    let [x0, x1] = [-half, half].map(|d| (layout.middle(1) + d).round());
-    let [y0, y1] = [0.8, 1.7].map(|d| (layout.foot + d * t).round());
-    let steps = (x1 - x0) as usize;
-    for i in 0..steps {
-        let value = 2.0 * (i as f32 + 0.5) / steps as f32 - 1.0;
-        let x = x0 + i as f32;
-        canvas.rectangle([x, x + 1.0], [y0, y1], colour::diverging(value));
-    }
-    for k in 0..5 {
-        let f = k as f32 / 4.0;
-        let x = x0 + f * (x1 - x0);
-        canvas.rectangle([x - 0.5, x + 0.5], [y1, y1 + 0.3 * t], dark);
-        let label = colour::short(end * (2.0 * f64::from(f) - 1.0));
-        canvas.text(&label, x, y1 + 1.5 * t, 0.9 * t, Align::Centre, dark);
-    }
-    let caption = "inside    % of equivalent diameter    beyond";
-    canvas.text(caption, layout.middle(1), y1 + 3.0 * t, 0.8 * t, Align::Centre, soft);
 }
 
 /// What the colours of the section mean.
@@ -274,14 +221,16 @@ fn legend(canvas: &mut Canvas, layout: &Layout, dark: Rgb) {
     }
 }
 
-fn angle(text: &str) -> Result<f64, String> {
+/// Degrees.
+pub fn angle(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(v) if v.abs() <= 360.0 => Ok(v),
         _ => Err(format!("{text} is not an angle within ±360 degrees")),
     }
 }
 
-fn size(text: &str) -> Result<(usize, usize), String> {
+/// Pixels.
+pub fn size(text: &str) -> Result<(usize, usize), String> {
     let parsed = text.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
     match parsed {
         Some((w, h)) if (120..=8000).contains(&w) && (100..=8000).contains(&h) => Ok((w, h)),
