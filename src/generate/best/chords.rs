@@ -43,6 +43,24 @@ impl Row {
         }
     }
 
+    /// As [`Row::cut`], for many balls.
+    pub(super) fn cut_many(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
+        self.begin(b, run, balls, order);
+        let Row { counts, single, most, touching, .. } = self;
+        if single.len() < *most * counts.len() {
+            single.resize(*most * counts.len(), (0.0, 0.0, 0));
+        }
+        for &i in touching.iter() {
+            chords(b, run, &balls[i as usize], |k, lo, hi| {
+                single[k * *most + counts[k] as usize] = (lo, hi, i);
+                counts[k] += 1;
+            });
+        }
+        for (k, &n) in counts.iter().enumerate() {
+            single[k * *most..k * *most + n as usize].sort_by(|x, y| x.0.total_cmp(&y.0));
+        }
+    }
+
     /// The chords of each ball in columns `from..to` of row `b`.
     pub(super) fn cut(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
         self.begin(b, run, balls, order);
@@ -135,8 +153,11 @@ pub(super) fn lengths(union: &[[f32; 2]], inside: &[[f32; 2]]) -> [f32; 2] {
 
 /// Calls `f(ball, from, to)` for each part of a column that lies in one chord only.
 #[inline(always)]
-pub(super) fn single(chords: &[(f32, f32, u32)], mut f: impl FnMut(u32, f32, f32)) {
-    let Some(&(mut at, mut end, mut ball)) = chords.first() else { return };
+pub(super) fn single(
+    mut chords: impl Iterator<Item = (f32, f32, u32)>,
+    mut f: impl FnMut(u32, f32, f32),
+) {
+    let Some((mut at, mut end, mut ball)) = chords.next() else { return };
     // Up to `second` there are two; up to `end`, one: `ball`.
     let mut second = f32::MIN;
     let mut part = |ball: u32, from: f32, to: f32| {
@@ -144,7 +165,7 @@ pub(super) fn single(chords: &[(f32, f32, u32)], mut f: impl FnMut(u32, f32, f32
             f(ball, from, to);
         }
     };
-    for &(from, to, i) in &chords[1..] {
+    for (from, to, i) in chords {
         part(ball, at.max(second), from.min(end));
         at = from;
         if to > end {

@@ -39,6 +39,8 @@ pub(super) struct Region {
     /// The box around them: lower and upper ends across the columns, along both axes.
     low: [f32; 2],
     high: [f32; 2],
+    /// While it is made, a bit for each column of these rows.
+    bits: Vec<u64>,
 }
 
 /// What each column holds of a clump.
@@ -77,37 +79,52 @@ impl Region {
     }
 
     /// The columns that any of `balls` touches.
-    pub(super) fn of(&mut self, dexels: &Dexels, balls: impl Iterator<Item = Seen>) {
-        let runs = &mut self.runs;
-        runs.clear();
+    pub(super) fn of(&mut self, dexels: &Dexels, balls: impl Iterator<Item = Seen> + Clone) {
         (self.low, self.high) = ([f32::MAX; 2], [f32::MIN; 2]);
-        for s in balls {
+        self.runs.clear();
+        self.bits.clear();
+        let words = dexels.dims[0] / 64 + 1;
+        for s in balls.clone() {
             for (k, x) in [s.u, s.v].into_iter().enumerate() {
                 self.low[k] = self.low[k].min(x - s.r);
                 self.high[k] = self.high[k].max(x + s.r);
             }
+        }
+        let [first, end] = [self.low[1], self.high[1]].map(|v| whole(v, dexels.dims[1]));
+        self.bits.resize(words * end.saturating_sub(first), 0);
+        for s in balls {
             let [b0, b1] = [s.v - s.r, s.v + s.r].map(|v| whole(v, dexels.dims[1]));
             for b in b0..b1 {
                 let y = b as f32 - s.v;
                 let half = (s.r * s.r - y * y).max(0.0).sqrt();
-                let [a0, a1] = [s.u - half, s.u + half].map(|u| whole(u, dexels.dims[0]) as u32);
+                let [a0, a1] = [s.u - half, s.u + half].map(|u| whole(u, dexels.dims[0]));
                 if a0 < a1 {
-                    runs.push([b as u32, a0, a1]);
+                    let row = words * (b - first);
+                    let (from, to) = (a0 / 64, (a1 - 1) / 64);
+                    for (k, word) in self.bits[row + from..=row + to].iter_mut().enumerate() {
+                        let (low, high) = (64 * (from + k), 64 * (from + k) + 63);
+                        let ones = u64::MAX << (a0.max(low) - low);
+                        *word |= ones & u64::MAX >> (high - (a1 - 1).min(high));
+                    }
                 }
             }
         }
-        runs.sort_unstable();
-        let mut kept = 0;
-        for k in 0..runs.len() {
-            let run = runs[k];
-            if kept > 0 && runs[kept - 1][0] == run[0] && run[1] <= runs[kept - 1][2] {
-                runs[kept - 1][2] = runs[kept - 1][2].max(run[2]);
-            } else {
-                runs[kept] = run;
-                kept += 1;
+        for (b, row) in (first as u32..).zip(self.bits.chunks_exact(words)) {
+            // Where a run begins, and where one ends: the bits that differ from those before.
+            let (mut before, mut from) = (0, None);
+            for (k, &word) in (0u32..).zip(row) {
+                let mut changes = word ^ (word << 1 | before);
+                before = word >> 63;
+                while changes != 0 {
+                    let at = 64 * k + changes.trailing_zeros();
+                    changes &= changes - 1;
+                    match from.take() {
+                        None => from = Some(at),
+                        Some(from) => self.runs.push([b, from, at]),
+                    }
+                }
             }
         }
-        runs.truncate(kept);
     }
 
     /// Numbers of its rows.
@@ -246,7 +263,7 @@ impl Look {
             let first = b * dexels.dims[0] + from;
             for k in 0..to - from {
                 let inside = dexels.column(first + k);
-                single(row.single(k), |ball, lo, hi| {
+                single(row.single(k).iter().copied(), |ball, lo, hi| {
                     let both: f32 =
                         inside.iter().map(|i| (hi.min(i[1]) - lo.max(i[0])).max(0.0)).sum();
                     let of = &mut out[ball as usize];

@@ -100,7 +100,7 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
     let first = plan.iterations / 2;
     let schedule = Schedule { iterations: first, from: wide, to: wide / 6.0 };
     refiner.refine(&task, &schedule, &mut balls, &all, &mut random, shared, &mut go);
-    let mut state = State::new(ground, balls, &mut look)?;
+    let mut state = State::new(ground, balls, plan.moves > 0, &mut look)?;
     state.measure_width(refiner.area);
     if go() {
         task.weights = state.weights();

@@ -35,6 +35,8 @@ pub(super) struct State<'a> {
     pub tried: Vec<u32>,
     /// For each row of columns, the sum of what its columns weigh when a place is drawn.
     rows: Vec<f64>,
+    /// Whether the books are kept that moves need: what columns hold ball by ball.
+    books: bool,
     /// Changes so far.
     pub version: u64,
     /// How far the surfaces of clump and target are apart in the mean: the measure of Huber's
@@ -43,7 +45,13 @@ pub(super) struct State<'a> {
 }
 
 impl<'a> State<'a> {
-    pub(super) fn new(ground: Ground<'a>, balls: Vec<Ball>, look: &mut Look) -> Result<State<'a>> {
+    /// `moves`: whether balls will be moved one by one.
+    pub(super) fn new(
+        ground: Ground<'a>,
+        balls: Vec<Ball>,
+        moves: bool,
+        look: &mut Look,
+    ) -> Result<State<'a>> {
         let n = balls.len();
         let mut state = State {
             ground,
@@ -55,6 +63,7 @@ impl<'a> State<'a> {
             alone: filled("what balls are worth", n, Lengths::default())?,
             tried: filled("moves of balls", n, 0)?,
             rows: reserve("rows of columns", ground.dexels.dims[1])?,
+            books: moves,
             version: 0,
             width: ground.size,
         };
@@ -103,6 +112,9 @@ impl<'a> State<'a> {
         self.seen.clear();
         self.seen.extend(self.balls.iter().map(|b| dexels.seen(b)));
         self.lengths = self.cover.whole(dexels, &self.seen, look);
+        if !self.books {
+            return;
+        }
         self.alone.fill(Lengths::default());
         self.piles.fill(dexels, &self.seen, look.order(dexels, &self.seen));
         self.piles.alone(dexels, &mut self.alone);
