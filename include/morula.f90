@@ -306,6 +306,7 @@ module morula
   public :: morula_shape_counters, morula_solid_counters
   public :: morula_solid_copy_note, morula_solid_moments, morula_clump_options_init
   public :: morula_clump_from_shape, morula_clump_from_solid, morula_clump_free
+  public :: morula_clumps_from_solid, morula_clumps_from_shapes, morula_clumps_from_labels
   public :: morula_clump_sphere_count, morula_clump_copy_spheres, morula_clump_stopped
   public :: morula_stopped_name, morula_clump_copy_note, morula_clump_moments
   public :: morula_clump_overlap, morula_clump_surface, morula_clump_copy_exposed_areas
@@ -657,6 +658,42 @@ module morula
       type(c_ptr), intent(inout) :: clump
       integer(c_int32_t) :: r
     end function morula_clump_from_solid
+    function morula_clumps_from_solid(solid, options, spheres, count, clumps) bind(c) result(r)
+      import
+      type(c_ptr), value :: solid
+      type(morula_clump_options), intent(in), optional :: options
+      integer(c_int64_t), intent(in) :: spheres(*)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: clumps(*)
+      integer(c_int32_t) :: r
+    end function morula_clumps_from_solid
+    function morula_clumps_from_shapes(shapes, count, solid_options, options, clumps, &
+        statuses) bind(c) result(r)
+      import
+      type(c_ptr), intent(in) :: shapes(*)
+      integer(c_size_t), value :: count
+      type(morula_solid_options), intent(in), optional :: solid_options
+      type(morula_clump_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: clumps(*)
+      integer(c_int32_t), intent(inout), optional :: statuses(*)
+      integer(c_int32_t) :: r
+    end function morula_clumps_from_shapes
+    function morula_clumps_from_labels(labels, dims, spacing, origin, wanted, count, &
+        import_options, solid_options, options, clumps, statuses) bind(c) result(r)
+      import
+      integer(c_int32_t), intent(in) :: labels(*)
+      integer(c_size_t), intent(in) :: dims(*)
+      real(c_double), intent(in), optional :: spacing(*)
+      real(c_double), intent(in), optional :: origin(*)
+      integer(c_int32_t), intent(in) :: wanted(*)
+      integer(c_size_t), value :: count
+      type(morula_import_options), intent(in), optional :: import_options
+      type(morula_solid_options), intent(in), optional :: solid_options
+      type(morula_clump_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: clumps(*)
+      integer(c_int32_t), intent(inout), optional :: statuses(*)
+      integer(c_int32_t) :: r
+    end function morula_clumps_from_labels
     subroutine morula_clump_free(clump) bind(c)
       import
       type(c_ptr), value :: clump
@@ -843,6 +880,14 @@ module morula
     procedure :: labels_of_array, labels_of_file, labels_of_bytes
   end interface morula_labels
 
+  !> Several clumps in one call, into clumps(n): of a solid with spheres(n) spheres each, of
+  !> shapes(n), of the labels wanted(n) of an array labels(nx, ny, nz). With statuses(n) every
+  !> one that succeeds is made; without, all of them or none.
+  interface morula_make_clumps
+    procedure :: clumps_from_solid, clumps_from_shapes, clumps_from_labels
+  end interface morula_make_clumps
+
+  public :: morula_make_clumps
   public :: morula_init, morula_text, morula_message, morula_name_of_status
   public :: morula_name_of_primitive, morula_name_of_stop, morula_labels
 
@@ -1274,7 +1319,7 @@ contains
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
   end subroutine shape_assign
 
-  subroutine shape_final(self)
+  impure elemental subroutine shape_final(self)
     type(morula_shape_t), intent(inout) :: self
     call self%destroy()
   end subroutine shape_final
@@ -1375,7 +1420,7 @@ contains
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
   end subroutine solid_assign
 
-  subroutine solid_final(self)
+  impure elemental subroutine solid_final(self)
     type(morula_solid_t), intent(inout) :: self
     call self%destroy()
   end subroutine solid_final
@@ -1410,6 +1455,75 @@ contains
     if (present(plane_tolerances)) call set_planes(options, plane_tolerances)
     call finish(morula_clump_from_solid(solid%handle, options, self%handle), status)
   end subroutine clump_from_solid
+
+  subroutine clumps_from_solid(clumps, solid, spheres, clump_options, status)
+    type(morula_clump_t), intent(inout) :: clumps(:)
+    class(morula_solid_t), intent(in) :: solid
+    integer, intent(in) :: spheres(:)
+    type(morula_clump_options), intent(in), optional :: clump_options
+    integer(c_int32_t), intent(out), optional :: status
+    type(c_ptr) :: handles(size(clumps))
+    integer(c_int32_t) :: code
+    call empty(clumps, size(spheres), handles)
+    code = morula_clumps_from_solid(solid%handle, clump_options, int(spheres, c_int64_t), &
+      size(spheres, kind=c_size_t), handles)
+    clumps%handle = handles
+    call finish(code, status)
+  end subroutine clumps_from_solid
+
+  subroutine clumps_from_shapes(clumps, shapes, clump_options, solid_options, statuses, status)
+    type(morula_clump_t), intent(inout) :: clumps(:)
+    type(morula_shape_t), intent(in) :: shapes(:)
+    type(morula_clump_options), intent(in), optional :: clump_options
+    type(morula_solid_options), intent(in), optional :: solid_options
+    integer(c_int32_t), intent(inout), contiguous, optional :: statuses(:)
+    integer(c_int32_t), intent(out), optional :: status
+    type(c_ptr) :: handles(size(clumps)), from(size(shapes))
+    integer(c_int32_t) :: code
+    call empty(clumps, size(shapes), handles, statuses)
+    from = shapes%handle
+    code = morula_clumps_from_shapes(from, size(from, kind=c_size_t), solid_options, &
+      clump_options, handles, statuses)
+    clumps%handle = handles
+    call finish(code, status)
+  end subroutine clumps_from_shapes
+
+  subroutine clumps_from_labels(clumps, labels, wanted, spacing, origin, clump_options, &
+      import_options, solid_options, statuses, status)
+    type(morula_clump_t), intent(inout) :: clumps(:)
+    integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
+    integer(c_int32_t), intent(in), contiguous :: wanted(:)
+    real(c_double), intent(in), optional :: spacing(3), origin(3)
+    type(morula_clump_options), intent(in), optional :: clump_options
+    type(morula_import_options), intent(in), optional :: import_options
+    type(morula_solid_options), intent(in), optional :: solid_options
+    integer(c_int32_t), intent(inout), contiguous, optional :: statuses(:)
+    integer(c_int32_t), intent(out), optional :: status
+    type(c_ptr) :: handles(size(clumps))
+    integer(c_int32_t) :: code
+    call empty(clumps, size(wanted), handles, statuses)
+    code = morula_clumps_from_labels(labels, shape(labels, c_size_t), spacing, origin, wanted, &
+      size(wanted, kind=c_size_t), import_options, solid_options, clump_options, handles, statuses)
+    clumps%handle = handles
+    call finish(code, status)
+  end subroutine clumps_from_labels
+
+  !> Clumps without content, one for each that is to be made.
+  subroutine empty(clumps, count, handles, statuses)
+    type(morula_clump_t), intent(inout) :: clumps(:)
+    integer, intent(in) :: count
+    type(c_ptr), intent(out) :: handles(:)
+    integer(c_int32_t), intent(inout), optional :: statuses(:)
+    integer :: i
+    if (size(clumps) /= count) error stop 'morula: clumps is not as long as what it is made of'
+    if (present(statuses)) then
+      if (size(statuses) /= count) error stop 'morula: statuses is not as long as clumps'
+    end if
+    do i = 1, count
+      call clumps(i)%destroy()
+      handles(i) = c_null_ptr
+    end do
+  end subroutine empty
 
   subroutine set_planes(options, planes)
     type(morula_clump_options), intent(inout) :: options
@@ -1528,7 +1642,7 @@ contains
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
   end subroutine clump_assign
 
-  subroutine clump_final(self)
+  impure elemental subroutine clump_final(self)
     type(morula_clump_t), intent(inout) :: self
     call self%destroy()
   end subroutine clump_final

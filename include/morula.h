@@ -1380,6 +1380,64 @@ int32_t morula_clump_copy_plane_contacts(const struct morula_clump *clump,
 int32_t morula_clump_counters(const struct morula_clump *clump,
                               struct morula_counters *counters);
 
+/// Makes clumps of one solid with several numbers of spheres: levels of detail.
+///
+/// Parameters: `spheres` holds `count` numbers of spheres, which stand in for that of `options`;
+/// `options` may be NULL for the defaults; `clumps` has room for `count` handles, in the same
+/// order. Each clump is, byte for byte, what morula_clump_from_solid() gives for its number;
+/// the deadline is one for all.
+/// Returns: MORULA_STATUS_OK; the statuses of morula_clump_from_solid(), of the first that
+/// failed: then none is written.
+/// Ownership: the solid stays the caller's; free each clump with morula_clump_free().
+/// Threads: any thread; the solid is only read.
+int32_t morula_clumps_from_solid(const struct morula_solid *solid,
+                                 const struct morula_clump_options *options,
+                                 const uint64_t *spheres,
+                                 size_t count,
+                                 struct morula_clump **clumps);
+
+/// Makes a clump of each of many shapes; their solids are made inside. Threads share the
+/// shapes, one each.
+///
+/// Parameters: `shapes` holds `count` handles; `solid_options` and `options` may be NULL for the
+/// defaults; threads, progress and user are those of `options`, its deadline is one for all;
+/// memory limits are for each shape by itself. `clumps` has room for `count` handles, and
+/// `statuses`, which may be NULL, for `count` statuses, in the same order. Each clump is, byte
+/// for byte, what morula_clump_from_shape() gives.
+/// Returns: MORULA_STATUS_OK; the statuses of morula_clump_from_shape(), of the first shape that
+/// failed. Then, with `statuses`, both arrays are written all the same, with NULL for each clump
+/// that failed, and the log is told each failure; without, none is written.
+/// Ownership: the shapes stay the caller's; free each clump with morula_clump_free().
+/// Threads: any thread; the shapes are only read. The same bytes come out for any number of
+/// threads.
+int32_t morula_clumps_from_shapes(const struct morula_shape *const *shapes,
+                                  size_t count,
+                                  const struct morula_solid_options *solid_options,
+                                  const struct morula_clump_options *options,
+                                  struct morula_clump **clumps,
+                                  int32_t *statuses);
+
+/// Makes a clump of each of many labels of a label volume. Threads share the labels, one
+/// each, and look at a label's own box alone.
+///
+/// Parameters: `labels`, `dims`, `spacing`, `origin`, `import_options` as
+/// morula_shape_from_label(); `wanted` holds the `count` labels, see morula_labels_copy();
+/// all others as morula_clumps_from_shapes().
+/// Returns: as morula_clumps_from_shapes() and morula_shape_from_label().
+/// Ownership: free each clump with morula_clump_free().
+/// Threads: any thread. The same bytes come out for any number of threads.
+int32_t morula_clumps_from_labels(const uint32_t *labels,
+                                  const size_t *dims,
+                                  const double *spacing,
+                                  const double *origin,
+                                  const uint32_t *wanted,
+                                  size_t count,
+                                  const struct morula_import_options *import_options,
+                                  const struct morula_solid_options *solid_options,
+                                  const struct morula_clump_options *options,
+                                  struct morula_clump **clumps,
+                                  int32_t *statuses);
+
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus

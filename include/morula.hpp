@@ -497,7 +497,62 @@ class Clump {
   }
   const morula_clump *get() const noexcept { return handle_.get(); }
 
+  /// Levels of detail: a clump with each of these numbers of spheres, in this order.
+  static std::vector<Clump> levels(const Solid &solid, const std::vector<std::uint64_t> &spheres,
+                                   const ClumpOptions &options = {}, Progress progress = {}) {
+    return many(spheres.size(), options, std::move(progress),
+                [&](const auto &o, morula_clump **out) {
+                  return morula_clumps_from_solid(solid.get(), &o, spheres.data(),
+                                                  spheres.size(), out);
+                });
+  }
+  /// A clump of each shape, which threads share; throws for the first that fails.
+  static std::vector<Clump> of_shapes(const std::vector<const Shape *> &shapes,
+                                      const ClumpOptions &options = {},
+                                      const SolidOptions &solid = {}, Progress progress = {}) {
+    std::vector<const morula_shape *> handles;
+    for (const auto *shape : shapes) handles.push_back(shape ? shape->get() : nullptr);
+    return many(shapes.size(), options, std::move(progress),
+                [&](const auto &o, morula_clump **out) {
+                  return morula_clumps_from_shapes(handles.data(), handles.size(), &solid, &o,
+                                                   out, nullptr);
+                });
+  }
+  /// A clump of each of these labels of a label volume, which threads share; throws for the
+  /// first that fails.
+  static std::vector<Clump> of_labels(const std::vector<std::uint32_t> &labels,
+                                      const Layout &layout,
+                                      const std::vector<std::uint32_t> &wanted,
+                                      const ClumpOptions &options = {},
+                                      const ImportOptions &import = {},
+                                      const SolidOptions &solid = {}, Progress progress = {}) {
+    layout.require(labels.size());
+    return many(wanted.size(), options, std::move(progress),
+                [&](const auto &o, morula_clump **out) {
+                  return morula_clumps_from_labels(
+                      labels.data(), layout.dims.data(), layout.spacing.data(),
+                      layout.origin.data(), wanted.data(), wanted.size(), &import, &solid, &o,
+                      out, nullptr);
+                });
+  }
+
  private:
+  explicit Clump(detail::Handle<morula_clump> handle) : handle_(std::move(handle)) {}
+  template <class Make>
+  static std::vector<Clump> many(std::size_t count, ClumpOptions options, Progress progress,
+                                 Make make) {
+    detail::Callback callback{std::move(progress), nullptr};
+    callback.enter(options);
+    std::vector<Clump> all;
+    all.reserve(count);
+    std::vector<morula_clump *> raw(count, nullptr);
+    const std::int32_t status = make(options, raw.data());
+    for (auto *clump : raw)
+      if (clump) all.push_back(Clump(detail::Handle<morula_clump>(clump)));
+    if (callback.thrown) std::rethrow_exception(callback.thrown);
+    check(status);
+    return all;
+  }
   detail::Handle<morula_clump> handle_;
 };
 

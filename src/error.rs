@@ -98,6 +98,39 @@ impl Error {
     }
 }
 
+impl Error {
+    /// The same error with words before its sentence, such as the one of many at fault.
+    pub fn about(&self, what: &str) -> Error {
+        use Error::*;
+        let mut error = self.clone();
+        match &mut error {
+            NullPointer(text)
+            | InvalidArgument(text)
+            | NotFinite(text)
+            | IndexOutOfRange(text)
+            | Empty(text)
+            | ZeroVolume(text)
+            | OpenSurface(text)
+            | SeveralBodies(text)
+            | Format(text)
+            | Unsupported(text)
+            | Io(text)
+            | MemoryLimit(text)
+            | OutOfMemory(text)
+            | BufferTooSmall(text)
+            | Cancelled(text)
+            | StructSize(text)
+            | TooLarge(text)
+            | NotWanted(text)
+            | NoSpheres(text)
+            | Internal(text) => {
+                *text = format!("{what}: {text}");
+            }
+        }
+        error
+    }
+}
+
 /// Refuses what may take more bytes than are `left` of the memory limit.
 pub fn fits(what: std::fmt::Arguments, bytes: u64, left: u64) -> Result<()> {
     if bytes <= left {
@@ -193,6 +226,12 @@ mod tests {
         let e = fits(format_args!("a tree"), 8, 7).unwrap_err();
         let text = "a tree may take 8 bytes, more than the 7 that are left of the limit";
         assert_eq!(e, Error::MemoryLimit(text.into()));
+    }
+
+    #[test]
+    fn words_come_before_the_sentence() {
+        let e = Error::Empty("no cell".into()).about("shape 3");
+        assert_eq!(e, Error::Empty("shape 3: no cell".into()));
     }
 
     #[test]

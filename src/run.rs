@@ -173,8 +173,26 @@ pub struct Run<'a> {
     deadline: Option<Instant>,
     progress: RefCell<Option<Progress<'a>>>,
     fraction: Cell<f64>,
+    /// Where the work's own fractions 0 and 1 lie in the whole.
+    span: Cell<[f64; 2]>,
     cancelled: Cell<bool>,
     counters: RefCell<Counters>,
+}
+
+/// What parts of a call on other threads take over.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RunPart {
+    seed: u64,
+    started: Instant,
+    deadline: Option<Instant>,
+}
+
+impl RunPart {
+    /// A run of a part, on the thread that asks.
+    pub(crate) fn run(self) -> Run<'static> {
+        let RunPart { seed, started, deadline } = self;
+        Run { seed, started, deadline, ..Run::serial() }
+    }
 }
 
 /// Called on the caller's thread with a fraction in [0, 1] that never falls;
@@ -202,6 +220,7 @@ impl<'a> Run<'a> {
             deadline: None,
             progress: RefCell::new(None),
             fraction: Cell::new(0.0),
+            span: Cell::new([0.0, 1.0]),
             cancelled: Cell::new(false),
             counters: RefCell::new(Counters::default()),
         }
@@ -227,6 +246,12 @@ impl<'a> Run<'a> {
         self
     }
 
+    /// A part of the work on one thread, with the same seed and deadline and counters of its own.
+    /// It tells no progress: that is called on the thread of the whole alone.
+    pub(crate) fn part(&self) -> RunPart {
+        RunPart { seed: self.seed, started: self.started, deadline: self.deadline }
+    }
+
     /// The threads.
     pub fn pool(&self) -> &Pool {
         &self.pool
@@ -237,13 +262,22 @@ impl<'a> Run<'a> {
         self.seed
     }
 
+    /// Begins the next of several pieces of work: from here on the fractions 0 and 1 are these of the
+    /// whole, and the counters are 0.
+    pub(crate) fn begin(&self, span: [f64; 2]) {
+        self.span.set(span);
+        self.counters.replace(Counters::default());
+    }
+
     /// Reports progress in [0, 1]. Smaller values than the last are raised to it.
     /// After a cancel this stays `true`.
     pub fn cancelled(&self, fraction: f64) -> bool {
         if self.cancelled.get() {
             return true;
         }
-        let f = if fraction.is_finite() { fraction.clamp(self.fraction.get(), 1.0) } else { 0.0 };
+        let [from, to] = self.span.get();
+        let f = from + (to - from) * if fraction.is_finite() { fraction } else { 0.0 };
+        let f = f.clamp(self.fraction.get(), 1.0);
         self.fraction.set(f.max(self.fraction.get()));
         // A callback that calls back into the library finds the cell taken: no progress then.
         if let Ok(mut slot) = self.progress.try_borrow_mut()

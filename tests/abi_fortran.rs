@@ -229,7 +229,11 @@ fn the_fortran_example_calls_every_function() {
         });
         let mut ways = aliases.collect::<Vec<_>>();
         ways.push(procedure.to_owned());
-        for (prefix, generic) in [("init_", "morula_init"), ("labels_of_", "morula_labels")] {
+        for (prefix, generic) in [
+            ("init_", "morula_init"),
+            ("labels_of_", "morula_labels"),
+            ("clumps_from_", "morula_make_clumps"),
+        ] {
             if procedure.starts_with(prefix) {
                 ways.push(generic.to_owned());
             }

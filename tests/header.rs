@@ -8,7 +8,7 @@ fn root() -> PathBuf {
 }
 
 /// The header's order of reading.
-const FILES: [&str; 12] = [
+const FILES: [&str; 13] = [
     "status",
     "callbacks",
     "choices",
@@ -21,6 +21,7 @@ const FILES: [&str; 12] = [
     "solid",
     "clump",
     "clump_read",
+    "clumps",
 ];
 
 fn generate() -> String {

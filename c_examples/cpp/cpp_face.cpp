@@ -93,6 +93,26 @@ int main() {
       CHECK(p > 10 * (i + 1) && p < 10 * (i + 1) + (i == 0 ? 3 : i == 1 ? 2 : 1));
     }
 
+  // Several in one call are as each by itself.
+  options.frame = MORULA_FRAME_INPUT;
+  options.method = MORULA_METHOD_BEST;
+  options.effort = MORULA_EFFORT_DRAFT;
+  options.threads = 2;
+  const auto levels = morula::Clump::levels(solid, {3, 8}, options);
+  CHECK(levels.size() == 2 && levels[0].size() == 3 && levels[1].size() == 8);
+  options.spheres = 8;
+  const auto same = morula::Clump::of_shapes({&shape, &shape, &shape}, options);
+  const auto one = morula::Clump(shape, options).spheres();
+  CHECK(same.size() == 3);
+  for (const auto &each : same)
+    CHECK(each.size() == 8 && each.spheres()[7].radius == one[7].radius);
+  const auto two = morula::Clump::of_labels({1, 1, 0, 2, 2, 2}, {{6, 1, 1}}, {2, 1}, options);
+  CHECK(two.size() == 2 && two[0].moments().volume == 3.0 && two[1].moments().volume == 2.0);
+  CHECK(status_of([&] { morula::Clump::of_labels({1, 1}, {{2, 1, 1}}, {1, 7}, options); }) ==
+        MORULA_STATUS_INDEX_OUT_OF_RANGE);
+  CHECK(status_of([&] { morula::Clump::of_shapes({&shape, nullptr}, options); }) ==
+        MORULA_STATUS_NULL_POINTER);
+
   // Errors carry their status and sentence.
   CHECK(status_of([] { morula::Shape::from_file("no/such.stl"); }) == MORULA_STATUS_IO);
   CHECK(status_of([] { morula::Shape::from_mesh({}, {}); }) == MORULA_STATUS_EMPTY);

@@ -393,12 +393,52 @@ contains
       call check(stopped == MORULA_STOPPED_CANCELLED, 'cancelled with spheres')
     end if
 
+    call several(solid)
+
     call body%destroy()
     call body%destroy()
     call clump%destroy()
     deallocate(s) ! the finalizer frees the shape
     ! solid goes out of scope
   end subroutine clumps
+
+  !> Several clumps in one call.
+  subroutine several(solid)
+    type(morula_solid_t), intent(in) :: solid
+    type(morula_clump_t) :: levels(2)
+    type(morula_clump_t), allocatable :: clumps(:)
+    type(morula_shape_t) :: shapes(2)
+    type(morula_clump_options) :: options
+    type(morula_moments) :: m
+    integer(c_int32_t) :: labels(6, 1, 1), statuses(3), status
+    integer :: i, n
+    call morula_init(options)
+    options%method = MORULA_METHOD_BEST
+    options%effort = MORULA_EFFORT_DRAFT
+    options%spheres = 5
+    options%threads = 2
+    call morula_make_clumps(levels, solid, [3, 7], options)
+    do i = 1, 2
+      call levels(i)%sphere_count(n)
+      call check(n == 4*i - 1, 'levels of detail')
+    end do
+    call shapes(1)%create_from_primitive('box')
+    call shapes(2)%create_from_primitive('sphere')
+    allocate(clumps(2))
+    call morula_make_clumps(clumps, shapes, options)
+    call clumps(2)%moments(1.0_c_double, m)
+    call near(m%volume, 4.188_c_double, 0.1_c_double, 'the second shape')
+    deallocate(clumps) ! the finalizer frees each
+    labels(:, 1, 1) = [1, 1, 0, 2, 2, 2]
+    allocate(clumps(3))
+    call morula_make_clumps(clumps, labels, [2, 9, 1], clump_options=options, &
+      statuses=statuses, status=status)
+    call check(status == MORULA_STATUS_INDEX_OUT_OF_RANGE, 'one label is not there')
+    call check(all(statuses == [MORULA_STATUS_OK, status, MORULA_STATUS_OK]), 'statuses')
+    call check(index(morula_message(), 'label at 1') == 1, 'which one')
+    call clumps(3)%moments(1.0_c_double, m)
+    call near(m%volume, 2.0_c_double, 1e-12_c_double, 'the others are made')
+  end subroutine several
 end module checks
 
 program fortran_api

@@ -40,9 +40,8 @@ const _: () = {
 const ALL_WANTS: u32 = MORULA_WANT_OVERLAP | MORULA_WANT_SURFACE | MORULA_WANT_MOMENTS;
 
 /// The caller's options, checked.
-struct Asked<'a> {
-    generate: GenerateOptions,
-    run: Run<'a>,
+pub(super) struct Asked {
+    pub generate: GenerateOptions,
     wants: u32,
     body_frame: bool,
 }
@@ -74,7 +73,7 @@ unsafe fn symmetry(o: &morula_clump_options) -> Result<Symmetry> {
     }
 }
 
-unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
+pub(super) unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<(Asked, Run<'a>)> {
     let o = unsafe { read(options)? };
     reserved("clump", o.reserved)?;
     let no_choice = |name: &str, value: i32| {
@@ -188,40 +187,54 @@ unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<Asked<'a>> {
     if o.deadline_seconds > 0.0 {
         run = run.with_deadline(o.deadline_seconds);
     }
-    Ok(Asked { generate, run, wants: o.wants, body_frame })
+    Ok((Asked { generate, wants: o.wants, body_frame }, run))
 }
 
-/// `before` is what the calls that made shape and solid did.
-fn make(solid: &Solid, asked: &Asked, before: &Counters) -> Result<morula_clump> {
-    let mut inner = generate(solid, &asked.generate, &asked.run)?;
-    let frame = *solid.frame();
-    let moments = *solid.unit_moments();
-    let mut spheres = crate::error::reserve("the spheres", inner.spheres.len().saturating_mul(4))?;
-    let body_frame = asked.body_frame.then(|| solid.body_frame());
-    for s in &inner.spheres {
-        let s = body_frame.as_ref().map_or(*s, |f| f(s));
-        spheres.extend([s.center.x, s.center.y, s.center.z, s.radius]);
+impl Asked {
+    /// Makes a clump and tells the log; `before` is what the calls that made shape and solid did.
+    fn make(&self, solid: &Solid, run: &Run, before: &Counters) -> Result<morula_clump> {
+        let made = self.wrap(solid, generate(solid, &self.generate, run)?, before)?;
+        made.log();
+        Ok(made)
     }
-    log(MORULA_LOG_INFO, || {
-        let c = &inner.counters;
-        format!(
-            "{} in {:.1} ms, stopped by {}",
-            crate::error::count(inner.spheres.len() as u64, "sphere"),
-            1e3 * c.seconds.iter().sum::<f64>(),
-            inner.stopped.name()
-        )
-    });
-    if !inner.note.is_empty() {
-        log_notes(std::slice::from_ref(&inner.note));
+
+    /// The handle of a clump.
+    pub(super) fn wrap(
+        &self,
+        solid: &Solid,
+        mut inner: Clump,
+        before: &Counters,
+    ) -> Result<morula_clump> {
+        let target = (*solid.unit_moments(), *solid.frame());
+        let count = inner.spheres.len().saturating_mul(4);
+        let mut spheres = crate::error::reserve("the spheres", count)?;
+        let body_frame = self.body_frame.then(|| solid.body_frame());
+        for s in &inner.spheres {
+            let s = body_frame.as_ref().map_or(*s, |f| f(s));
+            spheres.extend([s.center.x, s.center.y, s.center.z, s.radius]);
+        }
+        inner.counters = before.then(&inner.counters);
+        let planes = self.generate.quality.as_ref().is_some_and(|q| !q.plane_tolerances.is_empty());
+        Ok(morula_clump { inner, spheres, wants: self.wants, planes, target })
     }
-    inner.counters = before.then(&inner.counters);
-    Ok(morula_clump {
-        inner,
-        spheres,
-        wants: asked.wants,
-        planes: asked.generate.quality.as_ref().is_some_and(|q| !q.plane_tolerances.is_empty()),
-        target: (moments, frame),
-    })
+}
+
+impl morula_clump {
+    /// Tells the log what was made. Only on the thread that made the call.
+    pub(super) fn log(&self) {
+        log(MORULA_LOG_INFO, || {
+            let c = &self.inner.counters;
+            format!(
+                "{} in {:.1} ms, stopped by {}",
+                crate::error::count(self.inner.spheres.len() as u64, "sphere"),
+                1e3 * c.seconds.iter().sum::<f64>(),
+                self.inner.stopped.name()
+            )
+        });
+        if !self.inner.note.is_empty() {
+            log_notes(std::slice::from_ref(&self.inner.note));
+        }
+    }
 }
 
 /// Fills options with the defaults.
@@ -259,9 +272,9 @@ pub unsafe extern "C" fn morula_clump_from_shape(
         let shape = unsafe { borrow(shape, "shape")? };
         require(clump, "clump")?;
         let solid_options = unsafe { read(solid_options)? };
-        let asked = unsafe { asked(options)? };
-        let solid = build(&shape.inner, &solid_options, &asked.run)?;
-        let made = make(&solid, &asked, &shape.counters)?;
+        let (asked, run) = unsafe { asked(options)? };
+        let solid = build(&shape.inner, &solid_options, &run)?;
+        let made = asked.make(&solid, &run, &shape.counters)?;
         unsafe { give(clump, made) };
         Ok(())
     })
@@ -287,8 +300,8 @@ pub unsafe extern "C" fn morula_clump_from_solid(
     guard(|| {
         let solid = unsafe { borrow(solid, "solid")? };
         require(clump, "clump")?;
-        let asked = unsafe { asked(options)? };
-        let made = make(&solid.inner, &asked, &solid.counters)?;
+        let (asked, run) = unsafe { asked(options)? };
+        let made = asked.make(&solid.inner, &run, &solid.counters)?;
         unsafe { give(clump, made) };
         Ok(())
     })

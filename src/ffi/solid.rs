@@ -29,6 +29,13 @@ const _: () = {
 
 /// Makes the solid of a shape as the caller's options say.
 pub(super) fn build(shape: &Shape, o: &morula_solid_options, run: &Run) -> Result<Solid> {
+    let solid = Solid::new(shape, &solid_options(o)?, run)?;
+    log_notes(solid.notes());
+    Ok(solid)
+}
+
+/// The caller's options, checked.
+pub(super) fn solid_options(o: &morula_solid_options) -> Result<SolidOptions> {
     let cells = o.cells;
     if o.resolution != MORULA_RESOLUTION_CELL_SIZE && cells == 0 {
         return Err(Error::InvalidArgument("cells is 0".into()));
@@ -55,11 +62,7 @@ pub(super) fn build(shape: &Shape, o: &morula_solid_options, run: &Run) -> Resul
             1 << 20
         )));
     }
-    let options =
-        SolidOptions { resolution, padding: o.padding as usize, memory_limit: o.memory_limit };
-    let solid = Solid::new(shape, &options, run)?;
-    log_notes(solid.notes());
-    Ok(solid)
+    Ok(SolidOptions { resolution, padding: o.padding as usize, memory_limit: o.memory_limit })
 }
 
 /// Fills options with the defaults.

@@ -31,7 +31,11 @@ pub(super) fn above(threshold: f64) -> Result<Threshold> {
     Err(Error::NotFinite(format!("threshold is {threshold}")))
 }
 
-unsafe fn layout(dims: *const usize, spacing: *const f64, origin: *const f64) -> Result<Layout> {
+pub(super) unsafe fn layout(
+    dims: *const usize,
+    spacing: *const f64,
+    origin: *const f64,
+) -> Result<Layout> {
     require(dims, "dims")?;
     let dims = unsafe { array_or(dims, [0; 3], "dims")? };
     let spacing = unsafe { array_or(spacing, [1.0; 3], "spacing")? };
@@ -41,7 +45,11 @@ unsafe fn layout(dims: *const usize, spacing: *const f64, origin: *const f64) ->
 }
 
 /// The caller's voxels, as many as `dims` says.
-unsafe fn cells<'a, T>(pointer: *const T, dims: [usize; 3], name: &str) -> Result<&'a [T]> {
+pub(super) unsafe fn cells<'a, T>(
+    pointer: *const T,
+    dims: [usize; 3],
+    name: &str,
+) -> Result<&'a [T]> {
     let count = dims.iter().try_fold(1usize, |n, &d| n.checked_mul(d)).ok_or_else(|| {
         Error::TooLarge(format!("dims {dims:?} are more cells than memory can address"))
     })?;

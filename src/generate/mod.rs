@@ -4,6 +4,7 @@ mod ball;
 mod baselines;
 pub mod best;
 pub mod cover;
+mod many;
 pub mod mss;
 mod select;
 mod surface_fit;
@@ -16,6 +17,8 @@ use crate::solid::Solid;
 pub use baselines::OVERLAP;
 pub use best::{BestOptions, Effort, HalfSpace, Symmetry};
 pub use cover::CoverOptions;
+pub use many::{batch, batch_labels, levels};
+pub(crate) use many::{each, each_label};
 
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

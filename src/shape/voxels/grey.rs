@@ -65,15 +65,15 @@ impl Shape {
             let mut shape = match values {
                 Grey::U8(v) => {
                     let solid = |i: usize| v.get(i).is_some_and(|&x| f64::from(x) > above);
-                    build(&solid, layout, options, held, run)
+                    build(&solid, layout, None, options, held, run)
                 }
                 Grey::U16(v) => {
                     let solid = |i: usize| v.get(i).is_some_and(|&x| f64::from(x) > above);
-                    build(&solid, layout, options, held, run)
+                    build(&solid, layout, None, options, held, run)
                 }
                 Grey::F32(v) => {
                     let solid = |i: usize| v.get(i).is_some_and(|&x| f64::from(x) > above);
-                    build(&solid, layout, options, held, run)
+                    build(&solid, layout, None, options, held, run)
                 }
             }
             .map_err(|e| match e {

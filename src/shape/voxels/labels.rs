@@ -34,12 +34,29 @@ impl Shape {
         }
         run.time(Stage::Check, || {
             let solid = |i: usize| labels.get(i).is_some_and(|&l| l == label);
-            build(&solid, layout, options, held, run).map_err(|e| match e {
+            build(&solid, layout, None, options, held, run).map_err(|e| match e {
                 Error::Empty(_) => {
                     Error::IndexOutOfRange(format!("label {label} is not in the volume"))
                 }
                 e => e,
             })
+        })
+    }
+
+    /// As [`Shape::from_label`] of a label that [`list_labels`] found there: only its box is
+    /// looked at.
+    pub(crate) fn from_listed_label(
+        labels: &[u32],
+        layout: &Layout,
+        of: &LabelInfo,
+        options: &ImportOptions,
+        run: &Run,
+    ) -> Result<Shape> {
+        layout.check(labels.len())?;
+        run.time(Stage::Check, || {
+            let solid = |i: usize| labels.get(i).is_some_and(|&l| l == of.label);
+            let known = CellBox { first: of.first, last: of.last };
+            build(&solid, layout, Some(known), options, 0, run)
         })
     }
 }

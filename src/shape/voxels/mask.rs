@@ -32,7 +32,7 @@ impl Shape {
     ) -> Result<Shape> {
         layout.check(mask.len())?;
         run.time(Stage::Check, || {
-            build(&|i| mask.get(i).is_some_and(|&v| v != 0), layout, options, held, run)
+            build(&|i| mask.get(i).is_some_and(|&v| v != 0), layout, None, options, held, run)
         })
     }
 }
@@ -68,10 +68,12 @@ impl CellBox {
 }
 
 /// The shape of the cells for which `solid(index)` holds, in an array that
-/// [`Layout::check`] has passed; `held` bytes of the memory limit are taken.
+/// [`Layout::check`] has passed; `known`: their bounding box, where it is known; `held` bytes of the
+/// memory limit are taken.
 pub(super) fn build(
     solid: &(impl Fn(usize) -> bool + Sync),
     layout: &Layout,
+    known: Option<CellBox>,
     options: &ImportOptions,
     held: u64,
     run: &Run,
@@ -90,7 +92,8 @@ pub(super) fn build(
     let origin = scaled("origin", layout.origin, options.length_unit, 1e100)?;
     run.check(0.0, "looking for solid cells")?;
     let [nx, ny, nz] = layout.dims;
-    let whole = extent(solid, layout.dims, run)
+    let whole = known
+        .or_else(|| extent(solid, layout.dims, run))
         .ok_or_else(|| Error::Empty(format!("none of the {nx} x {ny} x {nz} voxels is solid")))?;
 
     let limit = |more| limit(whole, more, held, options);
