@@ -21,6 +21,11 @@ impl Lengths {
         (1.0 - 2.0 * self.both / (self.union + target)).clamp(0.0, 1.0)
     }
 
+    /// The same when clump beyond the target counts `overshoot` times.
+    pub(super) fn weighed(&self, overshoot: f64) -> Lengths {
+        Lengths { union: self.union + (overshoot - 1.0) * (self.union - self.both), ..*self }
+    }
+
     /// `w_out |C∖S| − w_in |S∩C|` with the weights that belong to D.
     pub(super) fn cost(&self, mismatch: f64) -> f64 {
         (1.0 - mismatch) * (self.union - self.both) - (1.0 + mismatch) * self.both

@@ -153,3 +153,30 @@ fn exchanges_are_changes() {
         }
     }
 }
+
+#[test]
+fn a_change_costs_less_than_nothing_exactly_where_the_goal_falls() {
+    let mut random = Random::new(5, 5);
+    for overshoot in [0.1, 0.5, 1.0, 2.0, 10.0] {
+        for _ in 0..500 {
+            let target = random.between(0.5, 2.0);
+            // Covered, beyond, and what changes of both.
+            let [b, o] = [random.between(0.3, 0.5), random.between(0.0, 0.2)];
+            let [db, mut dn] = [0; 2].map(|_| random.between(-0.1, 0.1));
+            dn = dn.max(-o);
+            let lengths = Lengths { union: b + o, both: b };
+            let change = Lengths { union: db + dn, both: db };
+            let goal = |b: f64, o: f64| {
+                let (missing, beyond) = (target - b, overshoot * o);
+                (missing + beyond) / (target + b + beyond)
+            };
+            let before = lengths.weighed(overshoot).mismatch(target);
+            assert!((before - goal(b, o)).abs() < 1e-12);
+            let cost = change.weighed(overshoot).cost(before);
+            let rise = goal(b + db, o + dn) - goal(b, o);
+            // A change of the lengths over what the goal is divided by.
+            let by = target + b + db + overshoot * (o + dn);
+            assert!((cost / by - rise).abs() < 1e-12, "{overshoot}: {cost} {rise}");
+        }
+    }
+}

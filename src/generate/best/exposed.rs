@@ -15,9 +15,11 @@ pub(super) struct Weights {
 }
 
 impl Weights {
-    /// Those for which the least w_out |C∖S| − w_in |S∩C| is the least D, near this D.
-    pub(super) fn at(mismatch: f64) -> Weights {
-        Weights { inside: (1.0 + mismatch) as f32, outside: (1.0 - mismatch) as f32 }
+    /// Those for which the least w_out |C∖S| − w_in |S∩C| is the least D, near this D, when clump
+    /// beyond the target counts `overshoot` times.
+    pub(super) fn at(mismatch: f64, overshoot: f64) -> Weights {
+        let outside = ((1.0 - mismatch) * overshoot) as f32;
+        Weights { inside: (1.0 + mismatch) as f32, outside }
     }
 }
 

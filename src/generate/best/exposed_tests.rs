@@ -102,7 +102,7 @@ fn a_ball_in_another_is_hidden_and_hides_nothing() {
     let directions = Directions::new(48);
     let mut turned = Vec::new();
     directions.turned(&Random::new(1, 2).rotation(), &mut turned);
-    let weights = Weights::at(0.0);
+    let weights = Weights::at(0.0, 1.0);
     let sampler = Sampler { field: &field, directions: &turned, weights, width: 0.02 };
     let ball = |radius: f32| Ball { center: [0.3, 0.3, 0.3], radius };
     let mut scratch = Scratch::default();

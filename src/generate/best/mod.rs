@@ -74,6 +74,7 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
         least: (LEAST * size).max(options.min_radius / solid.frame().scale) as f32,
         most: f32::MAX,
     };
+    let overshoot = options.best.overshoot_weight;
     let mut random = Random::new(run.seed(), 0);
     let mut balls = seeds::seeds(&field, &dexels, &plan, n, &radii, size as f32, &mut random)?;
     let mut look = Look::default();
@@ -93,9 +94,13 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
     let all: Vec<u32> = (0..n as u32).collect();
     let mut refiner = Refiner::default();
     let shared = (n >= SHARED).then(|| run.pool());
-    let ground = Ground { field: &field, dexels: &dexels, radii, size: size as f32 };
-    let mut task =
-        Task { field: &field, directions: &directions, weights: Weights::at(0.0), radii };
+    let ground = Ground { field: &field, dexels: &dexels, radii, overshoot, size: size as f32 };
+    let mut task = Task {
+        field: &field,
+        directions: &directions,
+        weights: Weights::at(0.0, overshoot),
+        radii,
+    };
     let wide = WIDE * size as f32 * (FEW / (n as f32).max(FEW)).cbrt();
     let first = plan.iterations / 2;
     let schedule = Schedule { iterations: first, from: wide, to: wide / 6.0 };
@@ -160,8 +165,10 @@ fn check(o: &GenerateOptions) -> Result<usize> {
     if o.confine {
         return only_mss("confine");
     }
-    if o.best != BestOptions::default() {
-        return Err(Error::Unsupported("demands on the clumps of best are not made yet".into()));
+    // What is made of the demands.
+    let made = BestOptions { overshoot_weight: o.best.overshoot_weight, ..BestOptions::default() };
+    if o.best != made {
+        return Err(Error::Unsupported("these demands on clumps of best are not made yet".into()));
     }
     if o.spheres == 0 {
         return Err(Error::InvalidArgument(

@@ -114,7 +114,7 @@ impl<'s, 'a> Search<'s, 'a> {
     fn settle(&mut self, iterations: usize, [from, to]: [f32; 2], directions: &Directions) {
         let state = &mut *self.state;
         let all: Vec<u32> = (0..state.balls.len() as u32).collect();
-        let before = (state.mismatch(), state.balls.clone());
+        let before = (state.goal(), state.balls.clone());
         let task = Task {
             field: state.ground.field,
             directions,
@@ -127,7 +127,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let random = &mut self.random;
         self.refiner.refine(&task, &schedule, balls, &all, random, shared, &mut || true);
         state.renew(&mut self.look);
-        if state.mismatch() >= before.0 {
+        if state.goal() >= before.0 {
             state.balls = before.1;
             state.renew(&mut self.look);
         } else {

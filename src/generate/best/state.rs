@@ -17,6 +17,8 @@ pub(super) struct Ground<'a> {
     pub field: &'a Field,
     pub dexels: &'a Dexels,
     pub radii: Radii,
+    /// How many times clump beyond the target counts.
+    pub overshoot: f64,
     /// A length of the order of the body.
     pub size: f32,
 }
@@ -76,25 +78,34 @@ impl<'a> State<'a> {
         self.lengths.mismatch(self.ground.dexels.target)
     }
 
-    /// The weights for which a step down is a step down in D.
-    pub(super) fn weights(&self) -> Weights {
-        Weights::at(self.mismatch())
+    /// What is made least: D with the weight of what is beyond the target.
+    pub(super) fn goal(&self) -> f64 {
+        self.lengths.weighed(self.ground.overshoot).mismatch(self.ground.dexels.target)
     }
 
-    /// What a change of the lengths costs: less than 0 exactly where D falls.
+    /// The weights for which a step down is a step down in the goal.
+    pub(super) fn weights(&self) -> Weights {
+        Weights::at(self.goal(), self.ground.overshoot)
+    }
+
+    /// What a change of the lengths costs: less than 0 exactly where the goal falls.
     pub(super) fn cost(&self, change: &Lengths) -> f64 {
-        change.cost(self.mismatch())
+        change.weighed(self.ground.overshoot).cost(self.goal())
     }
 
     /// All that is missing and too much, in units of the cost.
     pub(super) fn left(&self) -> f64 {
-        let d = self.mismatch();
-        self.lengths.cost(d) + (1.0 + d) * self.ground.dexels.target
+        self.left_of(&self.lengths.weighed(self.ground.overshoot))
+    }
+
+    fn left_of(&self, lengths: &Lengths) -> f64 {
+        let d = self.goal();
+        lengths.cost(d) + (1.0 + d) * self.ground.dexels.target
     }
 
     /// The width, from the clump's exposed area.
     pub(super) fn measure_width(&mut self, area: f64) {
-        let volume = self.left() * self.ground.dexels.cell();
+        let volume = self.left_of(&self.lengths) * self.ground.dexels.cell();
         let least = 1e-5 * f64::from(self.ground.size);
         let width = if area > 0.0 { volume / area } else { 0.0 };
         self.width = width.max(least) as f32;
@@ -124,7 +135,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Puts `balls` to the places of those with the numbers `of` if D falls; whether it does.
+    /// Puts `balls` to the places of those with the numbers `of` if the goal falls; whether it does.
     pub(super) fn take(&mut self, of: &[u32], balls: &[Ball], look: &mut Look) -> bool {
         let dexels = self.ground.dexels;
         let mut seen = self.seen.clone();
