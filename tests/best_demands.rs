@@ -1,13 +1,13 @@
 //! What clumps of the generator of least mismatch must keep to.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
 
-use morula::generate::{BestOptions, Effort, GenerateOptions, Method, generate};
+use morula::generate::{BestOptions, Effort, GenerateOptions, HalfSpace, Method, generate};
 use morula::measure::{Quality, QualityOptions, quality};
 use morula::shape::primitive::Primitive;
 use morula::shape::{ImportOptions, Shape};
 use morula::solid::{Resolution, SolidOptions};
-use morula::{Clump, Run, Solid};
+use morula::{Clump, Error, Run, Solid};
 
 fn solid(name: &str) -> Solid {
     let run = Run::serial();
@@ -53,5 +53,126 @@ fn overshoot_falls_with_its_weight() {
                 assert!(goal(mine) < 1.02 * goal(other), "{name} {w}: {q:?}");
             }
         }
+    }
+}
+
+#[test]
+fn no_radius_is_above_the_greatest() {
+    for name in ["box", "torus"] {
+        let solid = solid(name);
+        let mut before = 0.0;
+        for max_radius in [0.3, 0.2, 0.1] {
+            let best = BestOptions { max_radius, ..BestOptions::default() };
+            let clump = make(&solid, 30, &best);
+            assert_eq!(clump.spheres.len(), 30);
+            assert!(clump.spheres.iter().all(|s| s.radius <= max_radius));
+            let d = overlap(&solid, &clump).mismatch;
+            assert!(d > before, "{name} {max_radius}: {d} {before}");
+            before = d;
+        }
+    }
+}
+
+/// The greatest n · p of the points of a sphere, less the offset, in units of the rounding.
+fn beyond(s: &morula::math::Sphere, h: &HalfSpace) -> f64 {
+    let length = h.normal.norm();
+    let e = (h.normal / length).dot(&s.center) + s.radius - h.offset / length;
+    e / (f64::EPSILON * (s.center.norm() + h.offset.abs() / length + s.radius))
+}
+
+fn half(x: f64, y: f64, z: f64, offset: f64) -> HalfSpace {
+    HalfSpace { normal: morula::math::Vec3::new(x, y, z), offset }
+}
+
+#[test]
+fn half_spaces_are_as_good_as_a_smaller_body() {
+    let run = Run::serial();
+    let whole = solid("box");
+    let planes = [half(0.0, 0.0, 2.0, 0.2), half(-1.0, 0.0, 0.0, 0.3), half(0.0, 0.5, 0.0, 0.15)];
+    // What they leave of the box about the origin.
+    let parts = [([1.0, 1.0, 0.6], 1), ([0.8, 1.0, 0.6], 2), ([0.8, 0.8, 0.6], 3)];
+    for (edges, n) in parts {
+        let shape =
+            Shape::from_primitive(&Primitive::Box { edges }, 32, &ImportOptions::default(), &run);
+        let part = Solid::new(&shape.unwrap(), &SolidOptions::default(), &run).unwrap();
+        let half_spaces = planes[..n].to_vec();
+        let best = BestOptions { half_spaces: half_spaces.clone(), ..BestOptions::default() };
+        let mut clump = make(&whole, 16, &best);
+        assert_eq!(clump.spheres.len(), 16);
+        for s in &clump.spheres {
+            assert!(half_spaces.iter().all(|h| beyond(s, h) <= 4.0));
+        }
+        // About the middle of the part.
+        for s in &mut clump.spheres {
+            s.center += morula::math::Vec3::new(
+                if n > 1 { -0.1 } else { 0.0 },
+                if n > 2 { 0.1 } else { 0.0 },
+                0.2,
+            );
+        }
+        let mine = overlap(&part, &clump).mismatch;
+        // The same with the planes drawn on the part itself, and without.
+        let at = |x: f64| 0.5 * x;
+        let faces = [
+            half(0.0, 0.0, 1.0, at(edges[2])),
+            half(-1.0, 0.0, 0.0, at(edges[0])),
+            half(0.0, 1.0, 0.0, at(edges[1])),
+        ];
+        let best = BestOptions { half_spaces: faces[..n].to_vec(), ..BestOptions::default() };
+        let same = overlap(&part, &make(&part, 16, &best)).mismatch;
+        let free = overlap(&part, &make(&part, 16, &BestOptions::default())).mismatch;
+        assert!((mine / same - 1.0).abs() < 0.1, "{n}: {mine} {same}");
+        assert!(mine > free && mine < 2.5 * free, "{n}: {mine} {free}");
+    }
+}
+
+#[test]
+fn half_spaces_that_leave_nothing_are_an_error() {
+    let solid = solid("torus");
+    let refused = |half_spaces: Vec<HalfSpace>| {
+        let best = BestOptions { half_spaces, ..BestOptions::default() };
+        let result = generate(&solid, &ask(5, Effort::Draft, best), &Run::serial());
+        let Err(Error::ZeroVolume(text)) = result else { panic!("{result:?}") };
+        assert!(text.contains("half-spaces leave nothing"), "{text}");
+    };
+    refused(vec![half(0.0, 0.0, 1.0, -0.41)]);
+    refused(vec![half(1.0, 0.0, 0.0, 0.3), half(-1.0, 0.0, 0.0, -0.6)]);
+    // The hole.
+    refused(
+        [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]]
+            .map(|[x, y]| half(x, y, 0.0, 0.3))
+            .into(),
+    );
+}
+
+/// How far a sphere may reach beyond the surface at most: by its centre's distance.
+fn reach(solid: &Solid, clump: &Clump) -> f64 {
+    let surface = solid.surface(&Run::serial()).unwrap();
+    let reach = clump.spheres.iter().map(|s| {
+        let s = solid.frame().sphere_to_unit(s);
+        surface.signed_distance(&s.center) + s.radius
+    });
+    reach.fold(f64::MIN, f64::max) * solid.frame().scale
+}
+
+#[test]
+fn no_sphere_protrudes_farther_than_allowed() {
+    for name in ["box", "cone", "stone"] {
+        let solid = solid(name);
+        let free = overlap(&solid, &make(&solid, 16, &BestOptions::default())).mismatch;
+        let mut before = 1.0;
+        for max_protrusion in [1e-4, 0.01, 0.03, 0.3] {
+            let best = BestOptions { max_protrusion, ..BestOptions::default() };
+            let clump = make(&solid, 16, &best);
+            assert_eq!(clump.spheres.len(), 16);
+            assert!(reach(&solid, &clump) <= max_protrusion);
+            let q = quality(&solid, &clump.spheres, &QualityOptions::default(), &Run::serial());
+            let q = q.unwrap();
+            assert!(q.protrusion <= max_protrusion * (1.0 + 1e-9), "{name}: {}", q.protrusion);
+            let d = q.mismatch;
+            assert!(d < 1.02 * before, "{name} {max_protrusion}: {d} {before}");
+            before = d;
+        }
+        assert!((before / free - 1.0).abs() < 0.03, "{name}: {before} {free}");
     }
 }

@@ -2,6 +2,7 @@
 //! orientation: faces parallel to the columns would be exploited on a straight one. Everything
 //! is in units of the distance between columns, with column (a, b) at the place (a, b).
 
+use super::limits::Plane;
 use super::random::Random;
 use crate::error::{Error, Result, reserve};
 use crate::generate::ball::Ball;
@@ -60,6 +61,17 @@ impl Dexels {
     /// So many columns that about `wanted` meet the target, along its box's shortest edge.
     pub(super) fn new(
         solid: &Solid,
+        bounds: &[Vec3; 2],
+        wanted: usize,
+        pool: &Pool,
+    ) -> Result<Self> {
+        Dexels::among(solid, solid.inside(), bounds, wanted, pool)
+    }
+
+    /// The same for a part of the body: some of the cells inside, and their box.
+    pub(super) fn among(
+        solid: &Solid,
+        inside: &[u8],
         [low, high]: &[Vec3; 2],
         wanted: usize,
         pool: &Pool,
@@ -69,7 +81,7 @@ impl Dexels {
         let sampled = [(axis + 1) % 3, (axis + 2) % 3];
         let width = edges[sampled[0]].max(edges[sampled[1]]) * (1.0 + 2.0 * ROOM);
         let middle = sampled.map(|a| 0.5 * (low[a] + high[a]));
-        let shadow = shadow(solid.grid(), solid.inside(), axis);
+        let shadow = shadow(solid.grid(), inside, axis);
         let n = width * (wanted as f64 / shadow).sqrt();
         if !(1.0..=MOST).contains(&n) {
             return Err(Error::TooLarge(format!(
@@ -101,6 +113,45 @@ impl Dexels {
             return Err(Error::ZeroVolume(format!("none of {n} × {n} columns meets the target")));
         }
         Ok(Dexels { lattice, step, dims: lattice.dims, starts, intervals, target })
+    }
+
+    /// Keeps what lies within all planes.
+    pub(super) fn clip(&mut self, planes: &[Plane]) {
+        let (axis, mut kept, mut first) = (self.lattice.axis, 0, 0);
+        self.target = 0.0;
+        for c in 0..self.dims[0] * self.dims[1] {
+            let place = self.point(c % self.dims[0], c / self.dims[0], 0.0);
+            let place = Vec3::from(place.map(f64::from));
+            let mut ends = [f32::MIN, f32::MAX];
+            for plane in planes {
+                let left = (plane.offset - plane.normal.dot(&place)) / self.step;
+                let along = plane.normal[axis];
+                if along.abs() < 1e-9 {
+                    ends[1] = if left < 0.0 { f32::MIN } else { ends[1] };
+                } else if along > 0.0 {
+                    ends[1] = ends[1].min((left / along) as f32);
+                } else {
+                    ends[0] = ends[0].max((left / along) as f32);
+                }
+            }
+            let last = std::mem::replace(&mut self.starts[c], kept as u32);
+            let next = self.starts[c + 1] as usize;
+            debug_assert_eq!(last as usize, first);
+            for i in first..next {
+                let [low, high] = self.intervals[i];
+                let [low, high] = [low.max(ends[0]), high.min(ends[1])];
+                if low < high {
+                    self.intervals[kept] = [low, high];
+                    self.target += f64::from(high) - f64::from(low);
+                    kept += 1;
+                }
+            }
+            first = next;
+        }
+        if let Some(last) = self.starts.last_mut() {
+            *last = kept as u32;
+        }
+        self.intervals.truncate(kept);
     }
 
     /// Bytes that it holds.

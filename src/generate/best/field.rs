@@ -1,6 +1,7 @@
 //! The signed distance field as the refinement reads it: trilinear between cell centres, clamped
 //! to the grid outside it, eight places at a time.
 
+use super::limits::Plane;
 use crate::error::{Result, filled};
 use crate::run::Pool;
 use crate::solid::Grid;
@@ -53,6 +54,20 @@ impl Field {
             }
         });
         Ok(field)
+    }
+
+    /// The field of what half-spaces leave: inside, the distance to the nearer of surface and
+    /// planes; outside at most that.
+    pub(super) fn cut(&mut self, grid: &Grid, planes: &[Plane], pool: &Pool) {
+        let [nx, ny, _] = grid.dims;
+        pool.chunks_mut(&mut self.values, nx, |row, out| {
+            for (i, value) in out.iter_mut().enumerate() {
+                let p = grid.center(i, row % ny, row / ny);
+                for plane in planes {
+                    *value = value.max((plane.normal.dot(&p) - plane.offset) as f32);
+                }
+            }
+        });
     }
 
     /// Bytes that it holds.

@@ -13,7 +13,9 @@ mod directions;
 mod effort;
 mod exposed;
 mod field;
+mod finish;
 pub(super) mod inscribed;
+mod limits;
 mod medial;
 mod moves;
 mod near;
@@ -24,6 +26,7 @@ mod refine;
 mod search;
 mod seeds;
 mod state;
+mod target;
 #[cfg(test)]
 mod test_bodies;
 
@@ -33,19 +36,19 @@ pub use options::{BestOptions, HalfSpace, Symmetry};
 use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result};
-use crate::math::{Sphere, Vec3};
+use crate::math::Vec3;
 use crate::run::Run;
 use crate::shape::Body;
 use crate::solid::Solid;
 use cover::Look;
-use dexels::Dexels;
 use directions::Directions;
 use exposed::Weights;
-use field::Field;
+use limits::{Exact, Limits};
 use random::Random;
 use refine::{Radii, Refiner, Schedule, Task};
 use search::{BATCH, Search};
 use state::{Ground, State};
+use target::Target;
 
 /// Most spheres of a clump.
 const MOST: usize = 100_000;
@@ -60,23 +63,34 @@ const FEW: f32 = 30.0;
 pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let n = check(options)?;
     run.check(0.0, "measuring the distances of cells")?;
-    let field = Field::new(solid.grid(), solid.distance(run)?, run.pool())?;
-    let bounds = bounds(solid)?;
+    let (frame, asked) = (solid.frame(), &options.best);
+    let planes = limits::planes(asked, frame);
     let plan = options.effort.plan(n);
-    let dexels = Dexels::new(solid, &bounds, plan.columns, run.pool())?;
+    let Target { field, dexels, volume } = Target::new(solid, &planes, plan.columns, run)?;
     run.count(|c| {
         c.columns += (dexels.dims[0] * dexels.dims[1]) as u64;
         c.peak_bytes = c.peak_bytes.max(solid.bytes() + field.bytes() + dexels.bytes());
     });
     // The length for which the widths were found: a body of a fifth of its box's cube has 1.
-    let size = (solid.unit_moments().volume / 0.2).cbrt();
-    let radii = Radii {
-        least: (LEAST * size).max(options.min_radius / solid.frame().scale) as f32,
-        most: f32::MAX,
+    let size = (volume / 0.2).cbrt();
+    let most = if asked.max_radius > 0.0 { asked.max_radius / frame.scale } else { f64::MAX };
+    let most = most.min(f64::from(f32::MAX)) as f32;
+    let least = (LEAST * size).max(options.min_radius / frame.scale) as f32;
+    let radii = Radii { least: least.min(most), most };
+    let limits = Limits::new(&planes, asked.max_protrusion / frame.scale);
+    let least = 0.5 * f64::from(radii.least) * frame.scale;
+    let exact = Exact::new(solid, asked, [options.min_radius, least], run)?;
+    let overshoot = asked.overshoot_weight;
+    let ground = Ground {
+        field: &field,
+        dexels: &dexels,
+        radii,
+        limits: &limits,
+        overshoot,
+        size: size as f32,
     };
-    let overshoot = options.best.overshoot_weight;
     let mut random = Random::new(run.seed(), 0);
-    let mut balls = seeds::seeds(&field, &dexels, &plan, n, &radii, size as f32, &mut random)?;
+    let mut balls = seeds::seeds(&ground, &plan, n, &mut random)?;
     let mut look = Look::default();
     let mut stopped = Stopped::Spheres;
     let mut done = 0.0;
@@ -94,12 +108,12 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
     let all: Vec<u32> = (0..n as u32).collect();
     let mut refiner = Refiner::default();
     let shared = (n >= SHARED).then(|| run.pool());
-    let ground = Ground { field: &field, dexels: &dexels, radii, overshoot, size: size as f32 };
     let mut task = Task {
         field: &field,
         directions: &directions,
         weights: Weights::at(0.0, overshoot),
         radii,
+        limits: &limits,
     };
     let wide = WIDE * size as f32 * (FEW / (n as f32).max(FEW)).cbrt();
     let first = plan.iterations / 2;
@@ -136,15 +150,15 @@ pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resul
         search.polish(plan.polish);
     }
     let d = state.mismatch();
-    let mut balls = state.balls;
-    balls.sort_by(|x, y| y.radius.total_cmp(&x.radius));
-    let spheres: Vec<Sphere> =
-        balls.iter().map(|b| solid.frame().sphere_to_input(&b.sphere())).collect();
+    let (spheres, short) = finish::finish(state.balls, frame, &exact)?;
     let note = match stopped {
         Stopped::Deadline => format!("the deadline passed at a mismatch of about {d:.4}"),
         Stopped::Cancelled => format!("cancelled by the caller at a mismatch of about {d:.4}"),
-        _ => String::new(),
+        _ => short,
     };
+    if spheres.len() < n && stopped == Stopped::Spheres {
+        stopped = Stopped::Exhausted;
+    }
     Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
 }
 
@@ -166,7 +180,13 @@ fn check(o: &GenerateOptions) -> Result<usize> {
         return only_mss("confine");
     }
     // What is made of the demands.
-    let made = BestOptions { overshoot_weight: o.best.overshoot_weight, ..BestOptions::default() };
+    let made = BestOptions {
+        connected: false,
+        equal_volume: false,
+        smoothness: 0.0,
+        symmetry: Symmetry::None,
+        ..o.best.clone()
+    };
     if o.best != made {
         return Err(Error::Unsupported("these demands on clumps of best are not made yet".into()));
     }

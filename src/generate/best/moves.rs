@@ -130,6 +130,7 @@ impl Mover {
             directions,
             weights: state.weights(),
             radii: state.ground.radii,
+            limits: state.ground.limits,
         };
         self.refiner.refine(&task, schedule, &mut self.trial, of, random, None, &mut || true);
     }

@@ -32,10 +32,12 @@ pub struct BestOptions {
     /// what is made least is (|S∖C| + w |C∖S|) / (|S| + |S∩C| + w |C∖S|), which is D at w = 1.
     pub overshoot_weight: f64,
     /// How far a sphere may reach beyond the surface, in the caller's unit; 0: as far as is best.
+    /// Kept by depth: no radius is above this and the depth of the centre.
     pub max_protrusion: f64,
     /// Greatest radius, in the caller's unit; 0: as large as is best.
     pub max_radius: f64,
-    /// No sphere reaches out of any of these.
+    /// No sphere reaches out of any of these, and what they leave of the target is what is covered.
+    /// Quality is still that against the whole target.
     pub half_spaces: Vec<HalfSpace>,
     /// Whether the spheres must hang together by overlaps.
     pub connected: bool,

@@ -5,6 +5,7 @@
 use super::directions::Directions;
 use super::exposed::{Normal, Sampler, Scratch, Weights};
 use super::field::Field;
+use super::limits::Limits;
 use super::near::Near;
 use super::random::Random;
 use crate::generate::ball::Ball;
@@ -44,6 +45,7 @@ pub(super) struct Task<'a> {
     pub directions: &'a Directions,
     pub weights: Weights,
     pub radii: Radii,
+    pub limits: &'a Limits,
 }
 
 /// Buffers.
@@ -95,9 +97,15 @@ impl Refiner {
             let one = |k: usize, scratch: &mut Scratch| {
                 let others = near.of(k).iter().map(|&j| &balls[j as usize]);
                 let ball = &balls[of[k] as usize];
-                let normal = sampler.normal(ball, others, scratch);
-                let [x, y, z, r] = solve(&normal, DAMPING * task.directions.len() as f64)
-                    .map(|x| ((STEP * x) as f32).clamp(-2.0 * width, 2.0 * width));
+                let mut normal = sampler.normal(ball, others, scratch);
+                let solve = |n: &Normal| solve(n, DAMPING * task.directions.len() as f64);
+                let step = if task.limits.none() {
+                    solve(&normal)
+                } else {
+                    task.limits.step(task.field, ball, &mut normal, solve)
+                };
+                let [x, y, z, r] =
+                    step.map(|x| ((STEP * x) as f32).clamp(-2.0 * width, 2.0 * width));
                 [x, y, z, r, ball.radius * ball.radius * normal.exposed as f32]
             };
             match pool {
@@ -123,6 +131,14 @@ impl Refiner {
                 if ball.radius != radius {
                     speed[3] = 0.0;
                 }
+                if !task.limits.none() {
+                    let free = *ball;
+                    task.limits.hold(task.field, &task.radii, ball);
+                    for (speed, by) in speed.iter_mut().zip(free.way(ball)) {
+                        *speed += by;
+                    }
+                    speed[3] += ball.radius - free.radius;
+                }
                 let [x, y, z, r] = *speed;
                 most = most.max((x * x + y * y + z * z).sqrt() + r.abs());
             }
@@ -137,7 +153,7 @@ impl Refiner {
 }
 
 /// `(M + damping · diag(⅓, ⅓, ⅓, 1))⁻¹ b` by Cholesky's method.
-fn solve(normal: &Normal, damping: f64) -> [f64; 4] {
+pub(super) fn solve(normal: &Normal, damping: f64) -> [f64; 4] {
     let m = &normal.m;
     let d = damping / 3.0;
     let a = [

@@ -120,6 +120,7 @@ impl<'s, 'a> Search<'s, 'a> {
             directions,
             weights: state.weights(),
             radii: state.ground.radii,
+            limits: state.ground.limits,
         };
         let schedule = Schedule { iterations, from: from * state.width, to: to * state.width };
         let shared = (all.len() * directions.len() >= SHARED).then_some(self.pool);

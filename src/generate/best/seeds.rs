@@ -1,11 +1,9 @@
 //! The start of a search: a greedy cover of points inside by grown medial balls.
 
-use super::dexels::Dexels;
 use super::effort::Plan;
-use super::field::Field;
 use super::medial;
 use super::random::Random;
-use super::refine::Radii;
+use super::state::Ground;
 use crate::error::{Result, reserve};
 use crate::generate::ball::Ball;
 use crate::generate::select::choose;
@@ -13,32 +11,44 @@ use crate::generate::select::choose;
 /// Candidates are larger than fits by this factor: balls that reach out a little everywhere cover
 /// better for the same mismatch.
 const GROWN: f32 = 1.05;
+/// How far beyond the limits a candidate may reach, of its radius.
+const SLACK: f32 = 0.01;
 
-/// `n` balls. `size`: a length of the order of the body.
+/// `n` balls.
 pub(super) fn seeds(
-    field: &Field,
-    dexels: &Dexels,
+    ground: &Ground,
     plan: &Plan,
     n: usize,
-    radii: &Radii,
-    size: f32,
     random: &mut Random,
 ) -> Result<Vec<Ball>> {
-    let fit = |b: Ball| Ball { radius: (b.radius * GROWN).max(radii.least).min(radii.most), ..b };
+    let Ground { field, dexels, radii, limits, size, .. } = *ground;
+    let fit = |p: [f32; 3]| {
+        let medial = medial::ball(field, p, size);
+        let mut ball = Ball { radius: (medial.radius * GROWN).max(radii.least), ..medial };
+        if ball.radius > radii.most {
+            // As far from the point as the depth reaches that the radius can have.
+            let way = [0, 1, 2].map(|a| medial.center[a] - p[a]);
+            let length = way.iter().map(|x| x * x).sum::<f32>().sqrt();
+            let part = (radii.most / GROWN + field.one(p)) / length.max(f32::MIN_POSITIVE);
+            ball.center = [0, 1, 2].map(|a| p[a] + part.clamp(0.0, 1.0) * way[a]);
+            ball.radius = radii.most;
+        }
+        if !limits.none() {
+            limits.hold(field, &radii, &mut ball);
+        }
+        ball
+    };
     let mut candidates = reserve("candidates", plan.candidates)?;
-    candidates.extend(
-        dexels
-            .points(plan.candidates, random)?
-            .into_iter()
-            .map(|p| fit(medial::ball(field, p, size))),
-    );
+    candidates.extend(dexels.points(plan.candidates, random)?.into_iter().map(fit));
+    let fits = |b: &Ball| limits.none() || limits.excess(field, b) <= SLACK * b.radius;
+    if candidates.iter().any(fits) {
+        candidates.retain(fits);
+    }
     let points = dexels.points(plan.points, random)?;
     let mut balls = reserve("balls", n)?;
     balls.extend(choose(points, &candidates, n)?.into_iter().map(|i| candidates[i]));
     // Where all points are held before there are enough: balls about more of the medial axis.
     let more = n - balls.len();
-    balls.extend(
-        dexels.points(more, random)?.into_iter().map(|p| fit(medial::ball(field, p, size))),
-    );
+    balls.extend(dexels.points(more, random)?.into_iter().map(fit));
     Ok(balls)
 }

@@ -5,6 +5,7 @@ use super::cover::{Cover, Lengths, Look};
 use super::dexels::{Dexels, Seen};
 use super::exposed::Weights;
 use super::field::Field;
+use super::limits::Limits;
 use super::piles::Piles;
 use super::random::Random;
 use super::refine::Radii;
@@ -17,6 +18,7 @@ pub(super) struct Ground<'a> {
     pub field: &'a Field,
     pub dexels: &'a Dexels,
     pub radii: Radii,
+    pub limits: &'a Limits,
     /// How many times clump beyond the target counts.
     pub overshoot: f64,
     /// A length of the order of the body.

@@ -1,0 +1,268 @@
+//! What spheres keep within: half-spaces, a distance beyond the surface, radii. While a clump is
+//! looked for by the field in single precision, at its end exactly.
+
+use super::exposed::Normal;
+use super::field::Field;
+use super::options::BestOptions;
+use super::refine::Radii;
+use crate::error::{Result, reserve};
+use crate::generate::ball::Ball;
+use crate::math::{Sphere, UnitFrame, Vec3};
+use crate::run::Run;
+use crate::solid::Solid;
+use crate::solid::nearest::Surface;
+
+/// Rounds of projections on one limit after the other.
+const ROUNDS: usize = 4;
+/// Stiffness of a limit in the normal equations, of their trace.
+const STIFF: f64 = 1e4;
+/// Steps by which a sphere that is too small for its place is moved at the end.
+const STEPS: usize = 24;
+/// Beyond so many sizes a plane says nothing more.
+const FAR: f64 = 1e6;
+
+/// The points p with normal · p ≤ offset, unit frame; the normal has length 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Plane {
+    pub normal: Vec3,
+    pub offset: f64,
+}
+
+/// The half-spaces asked for.
+pub(super) fn planes(options: &BestOptions, frame: &UnitFrame) -> Vec<Plane> {
+    let each = options.half_spaces.iter().map(|h| {
+        let (normal, offset) = unit(&h.normal, h.offset);
+        let offset = (offset - normal.dot(&frame.offset)) / frame.scale;
+        Plane { normal, offset: offset.clamp(-FAR, FAR) }
+    });
+    each.collect()
+}
+
+/// The same half-space with a normal of length 1.
+fn unit(normal: &Vec3, offset: f64) -> (Vec3, f64) {
+    // By parts: squares of the caller's lengths may overflow or vanish.
+    let most = normal.amax();
+    let part = normal / most;
+    let norm = part.norm();
+    // Offsets that would overflow are far beyond any body.
+    let far = offset.abs() * 1e-290 > most;
+    let offset = if far { 1e290 * offset.signum() } else { offset / most / norm };
+    (part / norm, offset)
+}
+
+/// What balls keep within while the clump is looked for.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Limits {
+    planes: Vec<([f32; 3], f32)>,
+    /// How far beyond the surface.
+    protrusion: Option<f32>,
+}
+
+impl Limits {
+    /// `protrusion`: in the unit frame; 0: any.
+    pub(super) fn new(planes: &[Plane], protrusion: f64) -> Limits {
+        let single = |p: &Plane| ([0, 1, 2].map(|a| p.normal[a] as f32), p.offset as f32);
+        Limits {
+            planes: planes.iter().map(single).collect(),
+            protrusion: (protrusion > 0.0).then_some(protrusion.min(FAR) as f32),
+        }
+    }
+
+    /// Whether there are any.
+    pub(super) fn none(&self) -> bool {
+        self.planes.is_empty() && self.protrusion.is_none()
+    }
+
+    /// Calls `f` for each limit with its number, the slope of the excess by the centre (that by
+    /// the radius is 1), and the excess; `f` may change the ball.
+    fn each(&self, field: &Field, ball: &mut Ball, mut f: impl FnMut(&mut Ball, [f32; 3], f32)) {
+        for (normal, offset) in &self.planes {
+            let [x, y, z] = ball.center;
+            let at = normal[0] * x + normal[1] * y + normal[2] * z;
+            f(ball, *normal, at + ball.radius - offset);
+        }
+        if let Some(most) = self.protrusion {
+            // No point of the ball is farther beyond the surface than its centre is, and a radius.
+            let excess = field.one(ball.center) + ball.radius - most;
+            f(ball, field.slope(ball.center), excess);
+        }
+    }
+
+    /// By how much a ball reaches too far.
+    pub(super) fn excess(&self, field: &Field, ball: &Ball) -> f32 {
+        let mut most = 0.0f32;
+        self.each(field, &mut { *ball }, |_, _, e| most = most.max(e));
+        most
+    }
+
+    /// Puts a ball that reaches too far where it does not: by equal parts the centre moves and the
+    /// radius falls.
+    pub(super) fn hold(&self, field: &Field, radii: &Radii, ball: &mut Ball) {
+        for _ in 0..ROUNDS {
+            let mut held = true;
+            self.each(field, ball, |ball, slope, excess| {
+                if excess <= 0.0 {
+                    return;
+                }
+                held = false;
+                let steep = slope.iter().map(|s| s * s).sum::<f32>();
+                let radius = (ball.radius - excess / (1.0 + steep)).max(radii.least);
+                let by = (excess + radius - ball.radius) / steep.max(0.1);
+                ball.radius = radius;
+                for (x, s) in ball.center.iter_mut().zip(slope) {
+                    *x -= by * s;
+                }
+            });
+            if held {
+                return;
+            }
+        }
+        ball.radius = (ball.radius - self.excess(field, ball)).max(radii.least);
+    }
+
+    /// The step by the normal equations that leads beyond no limit, to first order; `solve` has the
+    /// free one.
+    pub(super) fn step(
+        &self,
+        field: &Field,
+        ball: &Ball,
+        normal: &mut Normal,
+        solve: impl Fn(&Normal) -> [f64; 4],
+    ) -> [f64; 4] {
+        let mut step = solve(normal);
+        let trace = normal.m[0] + normal.m[4] + normal.m[7] + normal.m[9];
+        let stiff = STIFF * trace.max(1.0);
+        // A limit that the free step would break is made stiff, and perhaps one more by this.
+        let mut done = 0u64;
+        for _ in 0..2 {
+            let mut k = 0;
+            let mut more = false;
+            self.each(field, &mut { *ball }, |_, [x, y, z], excess| {
+                let (row, excess) = ([x, y, z, 1.0].map(f64::from), f64::from(excess));
+                let mark = 1u64 << (k % 64);
+                k += 1;
+                let after = excess + row.iter().zip(&step).map(|(a, b)| a * b).sum::<f64>();
+                if after <= 0.0 || done & mark != 0 {
+                    return;
+                }
+                done |= mark;
+                more = true;
+                stiffen(normal, &row, excess, stiff);
+            });
+            if !more {
+                break;
+            }
+            step = solve(normal);
+        }
+        step
+    }
+}
+
+/// Adds a stiff equation, row · step = −excess.
+fn stiffen(normal: &mut Normal, row: &[f64; 4], excess: f64, stiff: f64) {
+    let mut upper = normal.m.iter_mut();
+    for i in 0..4 {
+        for (x, m) in row[i..].iter().zip(&mut upper) {
+            *m += stiff * row[i] * x;
+        }
+        normal.b[i] -= stiff * excess * row[i];
+    }
+}
+
+/// The greatest x with `at + x ≤ most`, or a few roundings less.
+fn below(most: f64, at: f64) -> f64 {
+    let mut x = most - at;
+    while at + x > most {
+        x -= f64::EPSILON * (at.abs() + most.abs());
+    }
+    x
+}
+
+/// What spheres keep within at the end: exactly, as the caller gets them.
+pub(super) struct Exact<'a> {
+    frame: UnitFrame,
+    planes: Vec<(Vec3, f64)>,
+    /// Unit frame.
+    protrusion: Option<(f64, &'a Surface)>,
+    /// 0: any.
+    most: f64,
+    /// That of the caller, and the least that is kept.
+    asked: f64,
+    least: f64,
+}
+
+impl<'a> Exact<'a> {
+    /// `asked` is the least radius that the caller wants, `least` one that makes sense.
+    pub(super) fn new(
+        solid: &'a Solid,
+        options: &BestOptions,
+        [asked, least]: [f64; 2],
+        run: &Run,
+    ) -> Result<Exact<'a>> {
+        let frame = *solid.frame();
+        let protrusion = if options.max_protrusion > 0.0 {
+            Some((options.max_protrusion / frame.scale, solid.surface(run)?))
+        } else {
+            None
+        };
+        let mut planes = reserve("half-spaces", options.half_spaces.len())?;
+        planes.extend(options.half_spaces.iter().map(|h| unit(&h.normal, h.offset)));
+        let least = least.max(asked);
+        Ok(Exact { frame, planes, protrusion, most: options.max_radius, asked, least })
+    }
+
+    /// Whether there are any.
+    pub(super) fn none(&self) -> bool {
+        self.planes.is_empty() && self.protrusion.is_none() && self.most == 0.0
+    }
+
+    /// The greatest radius that a sphere about `center` may have, where none is too large; less
+    /// than 0 where it may have none. And the way in which it grows.
+    fn room(&self, center: &Vec3) -> (f64, Vec3) {
+        let mut room = (if self.most > 0.0 { self.most } else { f64::MAX }, Vec3::zeros());
+        let mut lower = |radius: f64, way: &dyn Fn() -> Vec3| {
+            if radius < room.0 {
+                room = (radius, way());
+            }
+        };
+        for (normal, offset) in &self.planes {
+            let at = normal.dot(center);
+            lower(below(*offset, at), &|| -normal);
+        }
+        if let Some((most, surface)) = self.protrusion {
+            let p = self.frame.to_unit(center);
+            let (nearest, inside) = (surface.nearest(&p), surface.contains(&p));
+            let signed = if inside { -nearest.distance } else { nearest.distance };
+            let way = || {
+                let way = if inside { p - nearest.point } else { nearest.point - p };
+                let norm = way.norm();
+                if norm > 0.0 { way / norm } else { -nearest.normal }
+            };
+            lower(below(most, signed) * self.frame.scale, &way);
+        }
+        room
+    }
+
+    /// A sphere within the limits, moved where its place has too little room; none where that does
+    /// not help.
+    pub(super) fn hold(&self, sphere: &Sphere) -> Option<Sphere> {
+        let mut center = sphere.center;
+        for _ in 0..STEPS {
+            let (room, way) = self.room(&center);
+            if room >= self.least {
+                return Some(Sphere::new(center, sphere.radius.max(self.asked).min(room)));
+            }
+            center += way * (1.01 * (self.least - room));
+        }
+        None
+    }
+
+    /// The least radius that is kept.
+    pub(super) fn least(&self) -> f64 {
+        self.least
+    }
+}
+
+#[cfg(test)]
+#[path = "limits_tests.rs"]
+mod tests;

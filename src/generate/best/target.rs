@@ -1,0 +1,75 @@
+//! What is covered: the body, or what half-spaces leave of it; its distance field and its columns.
+
+use super::bounds;
+use super::dexels::Dexels;
+use super::field::Field;
+use super::limits::Plane;
+use crate::error::{Error, Result, filled};
+use crate::math::Vec3;
+use crate::run::Run;
+use crate::solid::Solid;
+
+/// The target of a search.
+pub(super) struct Target {
+    pub field: Field,
+    pub dexels: Dexels,
+    /// Unit frame.
+    pub volume: f64,
+}
+
+impl Target {
+    /// With about so many columns that meet it.
+    pub(super) fn new(
+        solid: &Solid,
+        planes: &[Plane],
+        columns: usize,
+        run: &Run,
+    ) -> Result<Target> {
+        let mut field = Field::new(solid.grid(), solid.distance(run)?, run.pool())?;
+        let bounds = bounds(solid)?;
+        if planes.is_empty() {
+            let dexels = Dexels::new(solid, &bounds, columns, run.pool())?;
+            return Ok(Target { field, dexels, volume: solid.unit_moments().volume });
+        }
+        field.cut(solid.grid(), planes, run.pool());
+        let (inside, [low, high]) = left(solid, planes)?;
+        // The lattice needs an extent.
+        let room = Vec3::repeat(1e-9);
+        let bounds = [low.sup(&bounds[0]).inf(&(bounds[1] - room)), high.inf(&bounds[1])];
+        let mut dexels = Dexels::among(solid, &inside, &bounds, columns, run.pool())?;
+        dexels.clip(planes);
+        if dexels.target <= 0.0 {
+            return Err(nothing());
+        }
+        let volume = dexels.target * dexels.cell();
+        Ok(Target { field, dexels, volume })
+    }
+}
+
+fn nothing() -> Error {
+    Error::ZeroVolume("the half-spaces leave nothing of the target".into())
+}
+
+/// The cells inside that half-spaces leave, if only a corner, and their box.
+fn left(solid: &Solid, planes: &[Plane]) -> Result<(Vec<u8>, [Vec3; 2])> {
+    let (grid, all) = (solid.grid(), solid.inside());
+    let mut inside = filled("cells in the half-spaces", all.len(), 0u8)?;
+    let reach: Vec<f64> =
+        planes.iter().map(|p| 0.5 * p.normal.abs().dot(&grid.spacing) + p.offset).collect();
+    let mut found: Option<[Vec3; 2]> = None;
+    let [nx, ny, _] = grid.dims;
+    for (i, out) in inside.iter_mut().enumerate() {
+        // Cells that are less than half in stand beside one that is not.
+        if all.get(i).is_none_or(|&c| c == 0) {
+            continue;
+        }
+        let p = grid.center(i % nx, i / nx % ny, i / nx / ny);
+        if planes.iter().zip(&reach).all(|(h, &reach)| h.normal.dot(&p) <= reach) {
+            *out = 1;
+            let [low, high] = found.unwrap_or([p, p]);
+            found = Some([low.inf(&p), high.sup(&p)]);
+        }
+    }
+    let [low, high] = found.ok_or_else(nothing)?;
+    Ok((inside, [low - grid.spacing, high + grid.spacing]))
+}
