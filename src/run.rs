@@ -262,10 +262,17 @@ impl<'a> Run<'a> {
         self.seed
     }
 
-    /// Begins the next of several pieces of work: from here on the fractions 0 and 1 are these of the
-    /// whole, and the counters are 0.
-    pub(crate) fn begin(&self, span: [f64; 2]) {
-        self.span.set(span);
+    /// Does one of several pieces of work: its fractions 0 and 1 are `span` of what is done around it.
+    pub(crate) fn within<T>(&self, span: [f64; 2], work: impl FnOnce() -> T) -> T {
+        let outer = self.span.get();
+        self.span.set(span.map(|f| outer[0] + (outer[1] - outer[0]) * f));
+        let result = work();
+        self.span.set(outer);
+        result
+    }
+
+    /// Sets the counters back, for work that is to be counted by itself.
+    pub(crate) fn count_anew(&self) {
         self.counters.replace(Counters::default());
     }
 

@@ -101,7 +101,6 @@ fn options_of_other_methods_are_refused() {
         GenerateOptions { min_distance: 1.0, ..o.clone() },
         GenerateOptions { radius_offset: 1.0, ..o.clone() },
         GenerateOptions { confine: true, ..o.clone() },
-        GenerateOptions { spheres: 0, mismatch: 0.1, ..o.clone() },
         GenerateOptions { spheres: usize::MAX, ..o.clone() },
     ] {
         let result = generate(&solid, &bad, &Run::serial());
@@ -116,4 +115,53 @@ fn radii_stay_above_the_least() {
     let clump = generate(&solid, &o, &Run::serial()).unwrap();
     assert_eq!(clump.spheres.len(), 40);
     assert!(clump.spheres.iter().all(|s| s.radius >= 0.11 * (1.0 - 1e-6)));
+}
+
+#[test]
+fn a_mismatch_is_reached_with_few_spheres() {
+    let solid = solid("torus", 40);
+    for (goal, effort) in [(0.3, Effort::Draft), (0.05, Effort::Draft), (0.1, Effort::Normal)] {
+        let options = GenerateOptions { mismatch: goal, ..ask(0, effort) };
+        let clump = generate(&solid, &options, &Run::serial()).unwrap();
+        let n = clump.spheres.len();
+        let d = mismatch(&solid, &clump);
+        assert!(d <= goal && clump.stopped == Stopped::Mismatch, "{goal}: {d} with {n}");
+        let less = generate(&solid, &ask(n - 1, effort), &Run::serial()).unwrap();
+        assert!(mismatch(&solid, &less) > goal, "{goal}: {n} are not the fewest");
+        // A limit above them changes nothing; one below is kept.
+        let limited = GenerateOptions { spheres: n + 5, ..options.clone() };
+        assert!(mismatch(&solid, &generate(&solid, &limited, &Run::serial()).unwrap()) <= goal);
+        let limited = GenerateOptions { spheres: n / 2, ..options };
+        let half = generate(&solid, &limited, &Run::serial()).unwrap();
+        assert_eq!((half.spheres.len(), half.stopped), (n / 2, Stopped::Spheres));
+    }
+}
+
+#[test]
+fn as_many_spheres_as_a_least_radius_allows() {
+    let solid = solid("box", 40);
+    let options = GenerateOptions { min_radius: 0.15, ..ask(0, Effort::Draft) };
+    let clump = generate(&solid, &options, &Run::serial()).unwrap();
+    assert_eq!(clump.stopped, Stopped::Radius);
+    assert!(clump.spheres.len() >= 8 && clump.spheres.iter().all(|s| s.radius >= 0.1499));
+    let twice = ask(2 * clump.spheres.len(), Effort::Draft);
+    let twice = generate(&solid, &GenerateOptions { min_radius: 0.15, ..twice }, &Run::serial());
+    assert!(mismatch(&solid, &twice.unwrap()) > 0.95 * mismatch(&solid, &clump));
+}
+
+#[test]
+fn as_many_spheres_as_there_is_time_for() {
+    let solid = solid("torus", 40);
+    // The callback stands for a clock: it stops the search at a fixed place.
+    let calls = std::cell::Cell::new(0);
+    let run = Run::serial().with_progress(Box::new(|_| {
+        calls.set(calls.get() + 1);
+        calls.get() > 400
+    }));
+    let clump = generate(&solid, &ask(0, Effort::Draft), &run).unwrap();
+    assert_eq!(clump.stopped, Stopped::Cancelled);
+    assert!(clump.spheres.len().is_power_of_two() && clump.spheres.len() >= 16);
+    let late = Run::serial().with_deadline(1e-9);
+    let clump = generate(&solid, &ask(0, Effort::Normal), &late).unwrap();
+    assert_eq!((clump.spheres.len(), clump.stopped), (8, Stopped::Deadline));
 }

@@ -25,9 +25,11 @@ pub fn levels(
 ) -> Vec<Result<Clump>> {
     let part = |k: usize| k as f64 / counts.len() as f64;
     let level = |(k, &spheres)| {
-        run.begin([part(k), part(k + 1)]);
-        run.check(0.0, "making levels of detail")?;
-        generate(solid, &GenerateOptions { spheres, ..options.clone() }, run)
+        run.count_anew();
+        run.within([part(k), part(k + 1)], || {
+            run.check(0.0, "making levels of detail")?;
+            generate(solid, &GenerateOptions { spheres, ..options.clone() }, run)
+        })
     };
     counts.iter().enumerate().map(level).collect()
 }

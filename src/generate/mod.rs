@@ -121,7 +121,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
     check(options, run)?;
     let mut clump = run.time(Stage::Generate, || match options.method {
         Method::Mss => mss::mss(solid, options, run),
-        Method::Best => best::best(solid, options, run),
+        Method::Best => best::fewest::make(solid, options, run),
         Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
         Method::Inscribed => best::inscribed::inscribed(solid, options, run),
         Method::Cover => cover::cover(solid, options, run),

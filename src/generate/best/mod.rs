@@ -12,6 +12,7 @@ mod dexels;
 mod directions;
 mod effort;
 mod exposed;
+pub(super) mod fewest;
 mod field;
 mod finish;
 pub(super) mod inscribed;
@@ -60,7 +61,7 @@ const WIDE: f32 = 0.03;
 const FEW: f32 = 30.0;
 
 /// Makes a clump.
-pub(super) fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
+fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let n = check(options)?;
     run.check(0.0, "measuring the distances of cells")?;
     let (frame, asked) = (solid.frame(), &options.best);
@@ -189,11 +190,6 @@ fn check(o: &GenerateOptions) -> Result<usize> {
     };
     if o.best != made {
         return Err(Error::Unsupported("these demands on clumps of best are not made yet".into()));
-    }
-    if o.spheres == 0 {
-        return Err(Error::InvalidArgument(
-            "the method best needs a number of spheres, and it is 0".into(),
-        ));
     }
     if o.spheres > MOST {
         return Err(Error::InvalidArgument(format!(

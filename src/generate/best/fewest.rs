@@ -1,0 +1,162 @@
+//! How many spheres, where that is not said: the fewest for a mismatch, or as many as a least
+//! radius or the time allows.
+
+use super::best;
+use crate::clump::{Clump, Stopped};
+use crate::error::{Error, Result, figure};
+use crate::generate::{Effort, GenerateOptions};
+use crate::measure::{QualityOptions, quality};
+use crate::run::Run;
+use crate::solid::Solid;
+
+/// Most spheres that are tried where no number is given.
+const MOST: usize = 5000;
+/// Numbers of spheres that are tried first.
+const FIRST: usize = 8;
+/// Twice as many spheres that leave this part of D or more are not worth it: all further ones
+/// would have to be smaller than the least radius.
+const USELESS: f64 = 0.95;
+
+/// A clump by the method best: of the number of spheres asked for, or of the number that the other
+/// criteria lead to.
+pub(in crate::generate) fn make(
+    solid: &Solid,
+    options: &GenerateOptions,
+    run: &Run,
+) -> Result<Clump> {
+    let search = Search { solid, options, run };
+    match (options.spheres, options.mismatch) {
+        (0, 0.0) => search.most(),
+        (_, 0.0) => best(solid, options, run),
+        _ => search.fewest(),
+    }
+}
+
+struct Search<'a, 'r> {
+    solid: &'a Solid,
+    options: &'a GenerateOptions,
+    run: &'a Run<'r>,
+}
+
+/// A clump and its D, as the quality figures measure it.
+struct Tried {
+    clump: Clump,
+    d: f64,
+}
+
+impl Tried {
+    fn late(&self) -> bool {
+        matches!(self.clump.stopped, Stopped::Deadline | Stopped::Cancelled)
+    }
+}
+
+impl Search<'_, '_> {
+    /// The clump of `n` spheres, the `k`th that is tried.
+    fn at(&self, n: usize, effort: Effort, k: i32) -> Result<Tried> {
+        let options = GenerateOptions { spheres: n, mismatch: 0.0, effort, ..self.options.clone() };
+        self.run.within([1.0 - 0.8f64.powi(k), 1.0 - 0.8f64.powi(k + 1)], || {
+            let clump = best(self.solid, &options, self.run)?;
+            let wanted = QualityOptions { surface: false, ..QualityOptions::default() };
+            // Cancelled or late, what there is goes out.
+            match quality(self.solid, &clump.spheres, &wanted, self.run) {
+                Ok(q) => Ok(Tried { clump, d: q.mismatch }),
+                Err(Error::Cancelled(_)) => {
+                    Ok(Tried { clump: Clump { stopped: Stopped::Cancelled, ..clump }, d: 1.0 })
+                }
+                Err(e) => Err(e),
+            }
+        })
+    }
+
+    /// The fewest spheres whose D is at most the one asked for. Drafts tell about where; then the
+    /// number is halved in between with the effort asked for. D falls with n but for a per cent
+    /// of noise, so the clump is good enough, and one with fewer might just be, too.
+    fn fewest(&self) -> Result<Clump> {
+        let (goal, effort) = (self.options.mismatch, self.options.effort);
+        let most = if self.options.spheres > 0 { self.options.spheres } else { MOST };
+        let mut k = -1;
+        let mut at = |n: usize, effort| {
+            k += 1;
+            self.at(n, effort, k)
+        };
+        // Too few spheres, as far as is known.
+        let mut low = 0;
+        let mut n = FIRST.min(most);
+        while n < most {
+            let draft = at(n, Effort::Draft)?;
+            if draft.late() {
+                return Ok(self.told(draft));
+            }
+            if draft.d <= goal {
+                break;
+            }
+            low = n;
+            n = n.saturating_mul(2).min(most);
+        }
+        let mut good = at(n, effort)?;
+        if good.late() || good.d > goal {
+            return Ok(self.told(good));
+        }
+        // Drafts are up to a third worse: what was too few for them may do.
+        if effort != Effort::Draft {
+            low /= 2;
+        }
+        while n - low > 1 {
+            let middle = low + (n - low) / 2;
+            let tried = at(middle, effort)?;
+            if tried.late() {
+                good.clump.stopped = tried.clump.stopped;
+                good.clump.note = "the search for fewer spheres was stopped".into();
+                return Ok(good.clump);
+            }
+            if tried.d <= goal {
+                (n, good) = (middle, tried);
+            } else {
+                low = middle;
+            }
+        }
+        good.clump.stopped = Stopped::Mismatch;
+        Ok(good.clump)
+    }
+
+    /// The clump of a search for a mismatch that ended without reaching it.
+    fn told(&self, tried: Tried) -> Clump {
+        let Tried { mut clump, d } = tried;
+        if matches!(clump.stopped, Stopped::Spheres) && self.options.spheres == 0 {
+            clump.stopped = Stopped::Exhausted;
+            clump.note = format!(
+                "{MOST} spheres have a mismatch of {d:.5}, not {}: name a number of spheres for more",
+                figure(self.options.mismatch)
+            );
+        }
+        clump
+    }
+
+    /// Twice as many spheres again and again, while there is time and they are not too small.
+    fn most(&self) -> Result<Clump> {
+        let effort = self.options.effort;
+        let mut n = FIRST;
+        let mut kept = self.at(n, effort, 0)?;
+        for k in 1.. {
+            if kept.late() || n == MOST {
+                break;
+            }
+            n = (2 * n).min(MOST);
+            let tried = self.at(n, effort, k)?;
+            if tried.late() {
+                kept.clump.stopped = tried.clump.stopped;
+                break;
+            }
+            if self.options.min_radius > 0.0 && tried.d > USELESS * kept.d {
+                kept.clump.stopped = Stopped::Radius;
+                break;
+            }
+            kept = tried;
+        }
+        if kept.clump.stopped == Stopped::Spheres {
+            kept.clump.stopped = Stopped::Exhausted;
+            kept.clump.note = format!("{MOST} spheres are the most where no number is named");
+        }
+        Ok(kept.clump)
+    }
+}
