@@ -6,7 +6,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
-use morula::generate::{GenerateOptions, generate};
+use morula::generate::{GenerateOptions, Method, generate};
 use morula::shape::read::FileOptions;
 use morula::shape::{Bodies, ImportOptions, Layout};
 use morula::solid::{Resolution, SolidOptions};
@@ -93,7 +93,11 @@ fn ours(v: &Voxels) -> (f64, f64) {
         let shape = Shape::from_mask(&v.mask, &layout, &import, &run).unwrap();
         let options = SolidOptions { padding: 2, ..SolidOptions::default() };
         let solid = Solid::new(&shape, &options, &run).unwrap();
-        let asked = GenerateOptions { spheres: v.spheres, ..GenerateOptions::default() };
+        let asked = GenerateOptions {
+            method: Method::Mss,
+            spheres: v.spheres,
+            ..GenerateOptions::default()
+        };
         let clump = generate(&solid, &asked, &run).unwrap();
         let seconds = cpu() - start;
         assert_eq!(clump.spheres.len(), v.spheres);

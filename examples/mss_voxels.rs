@@ -3,7 +3,7 @@
 //! centre of cell (0, 0, 0) is the origin) and prints one line of figures. The CPU time is
 //! that of the calling thread (Linux): distance transform to spheres, as for the peer.
 
-use morula::generate::{GenerateOptions, generate};
+use morula::generate::{GenerateOptions, Method, generate};
 use morula::shape::{Bodies, read::FileOptions};
 use morula::solid::SolidOptions;
 use morula::{Run, Shape, Solid};
@@ -32,6 +32,7 @@ fn main() -> Result<(), Failure> {
     let solid = Solid::new(&shape, &SolidOptions { padding: 2, ..SolidOptions::default() }, &run)?;
     let made = cpu_seconds()?;
     let options = GenerateOptions {
+        method: Method::Mss,
         spheres: spheres.parse()?,
         radius_offset: offset.parse()?,
         ..GenerateOptions::default()

@@ -215,10 +215,10 @@
 /// Cells of the edge length `cell_size`.
 #define MORULA_RESOLUTION_CELL_SIZE 3
 
-/// MSS: local maxima of the distance transform, iterated (the default).
+/// MSS: local maxima of the distance transform, iterated.
 #define MORULA_METHOD_MSS 0
 
-/// Least mismatch for the number of spheres.
+/// Least mismatch for the number of spheres (the default).
 #define MORULA_METHOD_BEST 1
 
 /// Spheres through four points of the surface, fitted to it; the method finds its own number, which
@@ -561,10 +561,9 @@ typedef struct morula_clump_options {
   double deadline_seconds;
   /// Seed of every random choice. Default 0.
   uint64_t seed;
-  /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS. min_distance, radius_offset and confine
-  /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST and
-  /// MORULA_METHOD_INSCRIBED need a number of spheres. Every other method refuses what it does
-  /// not read.
+  /// One of MORULA_METHOD_*. Default MORULA_METHOD_BEST. min_distance, radius_offset and confine
+  /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_INSCRIBED
+  /// needs a number of spheres. Every method refuses what it does not read.
   int32_t method;
   /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
   int32_t confine;

@@ -86,7 +86,7 @@ fn it_is_far_closer_than_mss() {
     for (name, n, part) in [("box", 12, 0.7), ("torus", 20, 0.6), ("cone", 20, 0.6)] {
         let solid = solid(name, 64);
         let best = generate(&solid, &ask(n, Effort::Normal), &Run::serial()).unwrap();
-        let mss = GenerateOptions { spheres: n, ..GenerateOptions::default() };
+        let mss = GenerateOptions { method: Method::Mss, spheres: n, ..GenerateOptions::default() };
         let mss = generate(&solid, &mss, &Run::serial()).unwrap();
         let (best, mss) = (mismatch(&solid, &best), mismatch(&solid, &mss));
         assert!(best < part * mss, "{name}: {best} {mss}");
@@ -115,6 +115,8 @@ fn radii_stay_above_the_least() {
     let clump = generate(&solid, &o, &Run::serial()).unwrap();
     assert_eq!(clump.spheres.len(), 40);
     assert!(clump.spheres.iter().all(|s| s.radius >= 0.11 * (1.0 - 1e-6)));
+    let o = GenerateOptions { min_radius: 0.7, ..ask(1, Effort::Draft) };
+    assert!(matches!(generate(&solid, &o, &Run::serial()), Err(Error::NoSpheres(_))));
 }
 
 #[test]

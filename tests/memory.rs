@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use morula::generate::{GenerateOptions, generate};
+use morula::generate::{GenerateOptions, Method, generate};
 use morula::math::{Sphere, Vec3};
 use morula::measure::{QualityOptions, quality};
 use morula::shape::{Bodies, ImportOptions, Layout, Primitive};
@@ -153,8 +153,13 @@ fn mss_takes_few_bytes_a_voxel() {
         let options =
             SolidOptions { resolution: Resolution::CellsLongest(128), ..SolidOptions::default() };
         let solid = Solid::new(&shape, &options, &run).unwrap();
-        let options =
-            GenerateOptions { spheres, confine, quality: None, ..GenerateOptions::default() };
+        let options = GenerateOptions {
+            method: Method::Mss,
+            spheres,
+            confine,
+            quality: None,
+            ..GenerateOptions::default()
+        };
         let clump = generate(&solid, &options, &run).unwrap();
         let a_voxel = run.counters().peak_bytes as f64 / solid.grid().len() as f64;
         assert!(clump.spheres.len() > 5 && (4.0..24.0).contains(&a_voxel), "{a_voxel}");

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use morula::generate::{GenerateOptions, generate};
+use morula::generate::{GenerateOptions, Method, generate};
 use morula::math::Vec3;
 use morula::shape::{ImportOptions, Primitive};
 use morula::solid::{Resolution, SolidOptions};
@@ -18,7 +18,13 @@ fn solid(mesh: &Triangles, cells: u32) -> Solid {
 }
 
 fn make(solid: &Solid, spheres: usize, confine: bool, radius_offset: f64) -> Clump {
-    let options = GenerateOptions { spheres, confine, radius_offset, ..GenerateOptions::default() };
+    let options = GenerateOptions {
+        method: Method::Mss,
+        spheres,
+        confine,
+        radius_offset,
+        ..GenerateOptions::default()
+    };
     generate(solid, &options, &Run::serial()).unwrap()
 }
 

@@ -8,7 +8,7 @@
 
 mod common;
 
-use morula::generate::{GenerateOptions, generate};
+use morula::generate::{GenerateOptions, Method, generate};
 use morula::shape::read::FileOptions;
 use morula::shape::{Bodies, ImportOptions, Layout};
 use morula::solid::SolidOptions;
@@ -197,8 +197,12 @@ fn d_is_at_most_the_reference_s_on_its_own_voxels() {
         let cells = solid.inside().iter().filter(|c| **c != 0).count();
         assert_eq!(cells, row.cells, "{}: not the reference's voxels", row.shape);
         for (n, radius_offset) in [1.0, 0.0].into_iter().enumerate() {
-            let options =
-                GenerateOptions { spheres: row.asked, radius_offset, ..GenerateOptions::default() };
+            let options = GenerateOptions {
+                method: Method::Mss,
+                spheres: row.asked,
+                radius_offset,
+                ..GenerateOptions::default()
+            };
             let clump = generate(solid, &options, &run).unwrap();
             assert!(clump.spheres.len() == row.asked || !clump.note.is_empty());
             let d = mismatch(solid, &clump.spheres);

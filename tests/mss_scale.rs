@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use morula::generate::{GenerateOptions, generate};
+use morula::generate::{GenerateOptions, Method, generate};
 use morula::measure::QualityOptions;
 use morula::shape::{ImportOptions, Layout, Primitive};
 use morula::solid::{Resolution, SolidOptions};
@@ -17,6 +17,7 @@ fn clump(shape: &Shape, n: usize, min_radius: f64) -> Clump {
     let solid = Solid::new(shape, &options, &run).unwrap();
     let quality = QualityOptions { columns: 128, surface: false, ..QualityOptions::default() };
     let options = GenerateOptions {
+        method: Method::Mss,
         spheres: n,
         min_radius,
         quality: Some(quality),

@@ -74,9 +74,9 @@ pub const MORULA_RESOLUTION_CELLS_DIAMETER: i32 = 2;
 /// Cells of the edge length `cell_size`.
 pub const MORULA_RESOLUTION_CELL_SIZE: i32 = 3;
 
-/// MSS: local maxima of the distance transform, iterated (the default).
+/// MSS: local maxima of the distance transform, iterated.
 pub const MORULA_METHOD_MSS: i32 = 0;
-/// Least mismatch for the number of spheres.
+/// Least mismatch for the number of spheres (the default).
 pub const MORULA_METHOD_BEST: i32 = 1;
 /// Spheres through four points of the surface, fitted to it; the method finds its own number, which
 /// `spheres` limits.

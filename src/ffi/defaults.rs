@@ -78,7 +78,7 @@ versioned!(
         radius_offset: 0.0,
         deadline_seconds: 0.0,
         seed: 0,
-        method: MORULA_METHOD_MSS,
+        method: MORULA_METHOD_BEST,
         confine: 0,
         threads: 1,
         frame: MORULA_FRAME_INPUT,

@@ -113,10 +113,9 @@ pub struct morula_clump_options {
     pub deadline_seconds: f64,
     /// Seed of every random choice. Default 0.
     pub seed: u64,
-    /// One of MORULA_METHOD_*. Default MORULA_METHOD_MSS. min_distance, radius_offset and confine
-    /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_BEST and
-    /// MORULA_METHOD_INSCRIBED need a number of spheres. Every other method refuses what it does
-    /// not read.
+    /// One of MORULA_METHOD_*. Default MORULA_METHOD_BEST. min_distance, radius_offset and confine
+    /// are read by MORULA_METHOD_MSS alone; MORULA_METHOD_INSCRIBED
+    /// needs a number of spheres. Every method refuses what it does not read.
     pub method: i32,
     /// 1: limit the radii so that no sphere reaches beyond the true surface. Default 0.
     pub confine: i32,

@@ -46,6 +46,7 @@ fn counters_cover_the_whole_road() {
         std::fs::remove_file(&path).unwrap();
         morula_clump_options_init(&mut options, size_of::<morula_clump_options>());
         options.spheres = 4;
+        options.method = MORULA_METHOD_MSS;
         options.wants = MORULA_WANT_NOTHING;
         assert_eq!(morula_clump_from_shape(shape, null(), &options, &mut first), 0);
         options.wants = MORULA_WANT_OVERLAP;

@@ -24,10 +24,10 @@ pub(crate) use many::{each, each_label};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// Local maxima of the distance transform, then of 2E − Ẽ (Buchele et al. 2026).
-    #[default]
     Mss,
     /// Least mismatch for the number of spheres: greedy cover, refinement of exposed surfaces,
     /// spheres moved to where they help more.
+    #[default]
     Best,
     /// Spheres through four points of the surface, fitted to it by least squares (Price et al.
     /// 2007). The number of spheres is the method's own; `spheres` limits it.
@@ -98,7 +98,7 @@ pub struct GenerateOptions {
 impl Default for GenerateOptions {
     fn default() -> Self {
         GenerateOptions {
-            method: Method::Mss,
+            method: Method::Best,
             spheres: 50,
             mismatch: 0.0,
             min_radius: 0.0,

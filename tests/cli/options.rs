@@ -114,7 +114,12 @@ fn sentences_quote_numbers_as_people_do() {
         (&["info", "sample:box", "--length-unit", "1e300"], "is 1e300,"),
         (&["clump", "sample:box", "--min-radius", "10"], "a radius of 10 or more"),
         (&["clump", "sample:box", "--cell-size", "10"], "larger than the shape"),
-        (&["clump", "sample:box", "--radius-offset", "1e9", "-n", "1"], "sphere 0 has radius"),
+        (&["clump", "sample:box", "--method", "mss", "--min-radius", "10"], "of 10 or more"),
+        (&["clump", "sample:box", "--radius-offset", "1e9", "-n", "1"], "is an option of"),
+        (
+            &["clump", "sample:box", "--method", "mss", "--radius-offset", "1e9", "-n", "1"],
+            "sphere 0 has radius",
+        ),
     ] {
         let said = fails(arguments, 1);
         assert!(said.contains(word) && said.len() < 250, "{said}");

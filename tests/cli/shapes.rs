@@ -128,8 +128,9 @@ fn a_seed_reaches_the_stone() {
     assert_ne!(area(&["sample:stone"]), seventh);
     // What the name says itself stands.
     assert_eq!(area(&["sample:stone,seed=7", "--seed", "8"]), seventh);
+    // MSS draws no numbers of its own.
     let clump = |input: &str, more: &[&str]| {
-        succeeds(&[&["clump", input, "-n", "3", "--cells", "16"], more].concat())
+        succeeds(&[&["clump", input, "-n", "3", "--cells", "16", "--method", "mss"], more].concat())
     };
     assert_eq!(clump("sample:stone", &["--seed", "7"]), clump("sample:stone,seed=7", &[]));
     assert_ne!(clump("sample:stone", &[]), clump("sample:stone,seed=7", &[]));

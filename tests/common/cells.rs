@@ -2,7 +2,7 @@
 
 #![allow(missing_docs, dead_code, clippy::unwrap_used)]
 
-use morula::generate::{GenerateOptions, generate};
+use morula::generate::{GenerateOptions, Method, generate};
 use morula::shape::{Bodies, ImportOptions, Layout};
 use morula::solid::SolidOptions;
 use morula::{Clump, Run, Shape, Solid, Sphere};
@@ -29,7 +29,7 @@ pub fn cells(dims: [usize; 3], spacing: [f64; 3], inside: Cell) -> (Solid, Vec<u
 }
 
 pub fn ask(n: usize) -> GenerateOptions {
-    GenerateOptions { spheres: n, ..GenerateOptions::default() }
+    GenerateOptions { method: Method::Mss, spheres: n, ..GenerateOptions::default() }
 }
 
 pub fn make(solid: &Solid, options: &GenerateOptions) -> Clump {

@@ -68,7 +68,7 @@ pub struct Args {
 #[command(next_help_heading = "Method")]
 struct Making {
     /// How spheres are found
-    #[arg(long, value_enum, default_value_t = MethodArg::Mss)]
+    #[arg(long, value_enum, default_value_t = MethodArg::Best)]
     method: MethodArg,
     /// How long methods best and inscribed look for a clump
     #[arg(long, value_enum, default_value_t = EffortArg::Normal)]

@@ -24,6 +24,13 @@ pub(in crate::generate) fn make(
     options: &GenerateOptions,
     run: &Run,
 ) -> Result<Clump> {
+    let ball = (0.75 / std::f64::consts::PI * solid.unit_moments().volume).cbrt();
+    if options.min_radius / solid.frame().scale > ball {
+        return Err(Error::NoSpheres(format!(
+            "a single sphere with a radius of {} or more has more volume than the body",
+            figure(options.min_radius)
+        )));
+    }
     let search = Search { solid, options, run };
     match (options.spheres, options.mismatch) {
         (0, 0.0) => search.most(),
