@@ -73,7 +73,7 @@ struct Making {
     /// How long methods best and inscribed look for a clump
     #[arg(long, value_enum, default_value_t = EffortArg::Normal)]
     effort: EffortArg,
-    /// Stop at this mismatch D, counted on the method's own grid: the D that is measured on the
+    /// Stop at this mismatch D. Method mss counts it on its own grid: the D that is measured on the
     /// result may differ a little, less so with more --cells
     #[arg(long, value_name = "D", value_parser = not_negative)]
     mismatch: Option<f64>,
