@@ -1,6 +1,7 @@
 //! The end of a search: spheres in the caller's frame that keep their limits exactly.
 
 use super::limits::Exact;
+use super::symmetry::Orbits;
 use crate::error::{Error, Result, figure, reserve};
 use crate::generate::ball::Ball;
 use crate::math::{Sphere, UnitFrame};
@@ -8,30 +9,55 @@ use crate::math::{Sphere, UnitFrame};
 /// The balls as spheres in the caller's frame, those left out that no place near theirs has room
 /// for, and what is to be said about that.
 pub(super) fn finish(
-    mut balls: Vec<Ball>,
+    balls: &[Ball],
+    orbits: &Orbits,
     frame: &UnitFrame,
     exact: &Exact,
 ) -> Result<(Vec<Sphere>, String)> {
-    balls.sort_by(|x, y| y.radius.total_cmp(&x.radius));
     let n = balls.len();
+    let mut leads = orbits.leads(n);
+    let radius = |i: u32| balls[i as usize].radius;
+    leads.sort_by(|&i, &j| radius(j).total_cmp(&radius(i)));
     let mut spheres = reserve("spheres", n)?;
-    spheres.extend(balls.iter().map(|b| frame.sphere_to_input(&b.sphere())));
-    if exact.none() {
-        return Ok((spheres, String::new()));
+    for i in leads {
+        let sphere = balls[i as usize].sphere();
+        if exact.none() {
+            spheres.extend(orbits.images(i, sphere, frame));
+        } else if let Some(held) = exact.hold(&frame.sphere_to_input(&sphere)) {
+            spheres.extend(together(exact, orbits.images_of(i, held, frame)));
+        }
     }
-    let mut held: Vec<Sphere> = reserve("spheres", n)?;
-    held.extend(spheres.iter().filter_map(|s| exact.hold(s)));
     let least = figure(exact.least());
-    if held.is_empty() {
+    if spheres.is_empty() {
         return Err(Error::NoSpheres(format!(
             "none of {n} spheres has room for a radius of {least} within the limits"
         )));
     }
-    held.sort_by(|x, y| y.radius.total_cmp(&x.radius));
-    let note = if held.len() < n {
-        format!("{} of {n} spheres have room for a radius of {least} within the limits", held.len())
+    spheres.sort_by(|x, y| y.radius.total_cmp(&x.radius));
+    let note = if spheres.len() < n {
+        format!(
+            "{} of {n} spheres have room for a radius of {least} within the limits",
+            spheres.len()
+        )
     } else {
         String::new()
     };
-    Ok((held, note))
+    Ok((spheres, note))
+}
+
+/// Spheres that are images of each other with the greatest radius for which all have room; none
+/// where one has to move.
+fn together(exact: &Exact, mut images: Vec<Sphere>) -> Vec<Sphere> {
+    if images.len() == 1 {
+        return images;
+    }
+    let mut radius = f64::MAX;
+    for s in &images {
+        match exact.hold(s) {
+            Some(held) if held.center == s.center => radius = radius.min(held.radius),
+            _ => return Vec::new(),
+        }
+    }
+    images.iter_mut().for_each(|s| s.radius = radius);
+    images
 }

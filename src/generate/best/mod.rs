@@ -26,7 +26,9 @@ mod random;
 mod refine;
 mod search;
 mod seeds;
+mod start;
 mod state;
+mod symmetry;
 mod target;
 #[cfg(test)]
 mod test_bodies;
@@ -42,30 +44,26 @@ use crate::run::Run;
 use crate::shape::Body;
 use crate::solid::Solid;
 use cover::Look;
-use directions::Directions;
-use exposed::Weights;
 use limits::{Exact, Limits};
-use random::Random;
-use refine::{Radii, Refiner, Schedule, Task};
+use refine::Radii;
 use search::{BATCH, Search};
-use state::{Ground, State};
+use start::Start;
+use state::Ground;
 use target::Target;
 
 /// Most spheres of a clump.
 const MOST: usize = 100_000;
 /// Least radius, as a part of the body's size.
 const LEAST: f64 = 0.002;
-/// Huber's width at the first iteration, as a part of the body's size, for so many balls; of more
-/// balls, which are smaller, less.
-const WIDE: f32 = 0.03;
-const FEW: f32 = 30.0;
 
 /// Makes a clump.
 fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
-    let n = check(options)?;
+    let wanted = check(options)?;
     run.check(0.0, "measuring the distances of cells")?;
     let (frame, asked) = (solid.frame(), &options.best);
     let planes = limits::planes(asked, frame);
+    let sites = symmetry::sites(solid, asked, &planes)?;
+    let n = sites.as_ref().map_or(wanted, |s| s.most(wanted));
     let plan = options.effort.plan(n);
     let Target { field, dexels, volume } = Target::new(solid, &planes, plan.columns, run)?;
     run.count(|c| {
@@ -90,8 +88,6 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         overshoot,
         size: size as f32,
     };
-    let mut random = Random::new(run.seed(), 0);
-    let mut balls = seeds::seeds(&ground, &plan, n, &mut random)?;
     let mut look = Look::default();
     let mut stopped = Stopped::Spheres;
     let mut done = 0.0;
@@ -104,36 +100,8 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         }
         stopped == Stopped::Spheres
     };
-    // Least squares of distances first; then the volume between the surfaces.
-    let directions = Directions::new(plan.directions);
-    let all: Vec<u32> = (0..n as u32).collect();
-    let mut refiner = Refiner::default();
-    let shared = (n >= SHARED).then(|| run.pool());
-    let mut task = Task {
-        field: &field,
-        directions: &directions,
-        weights: Weights::at(0.0, overshoot),
-        radii,
-        limits: &limits,
-    };
-    let wide = WIDE * size as f32 * (FEW / (n as f32).max(FEW)).cbrt();
-    let first = plan.iterations / 2;
-    let schedule = Schedule { iterations: first, from: wide, to: wide / 6.0 };
-    refiner.refine(&task, &schedule, &mut balls, &all, &mut random, shared, &mut go);
-    let mut state = State::new(ground, balls, plan.moves > 0, &mut look)?;
-    state.measure_width(refiner.area);
-    if go() {
-        task.weights = state.weights();
-        let schedule = Schedule {
-            iterations: plan.iterations - first,
-            from: 2.0 * state.width,
-            to: 0.3 * state.width,
-        };
-        let balls = &mut state.balls;
-        refiner.refine(&task, &schedule, balls, &all, &mut random, shared, &mut go);
-        state.renew(&mut look);
-        state.measure_width(refiner.area);
-    }
+    let start = Start { ground, plan, n, run };
+    let mut state = start.state(sites.as_ref(), &mut look, &mut go)?;
     let mut search = Search::new(&mut state, run.seed(), run.pool());
     let batches = plan.moves.div_ceil(BATCH);
     for k in 0..batches {
@@ -151,7 +119,11 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         search.polish(plan.polish);
     }
     let d = state.mismatch();
-    let (spheres, short) = finish::finish(state.balls, frame, &exact)?;
+    let (spheres, mut short) = finish::finish(&state.balls, &state.orbits, frame, &exact)?;
+    if n < wanted {
+        short = [symmetry::note(&sites, wanted, n), short].concat();
+        stopped = if stopped == Stopped::Spheres { Stopped::Exhausted } else { stopped };
+    }
     let note = match stopped {
         Stopped::Deadline => format!("the deadline passed at a mismatch of about {d:.4}"),
         Stopped::Cancelled => format!("cancelled by the caller at a mismatch of about {d:.4}"),
@@ -162,9 +134,6 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     }
     Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
 }
-
-/// From so many balls on, threads share them in an iteration.
-const SHARED: usize = 400;
 
 /// The number of spheres.
 fn check(o: &GenerateOptions) -> Result<usize> {
@@ -181,13 +150,8 @@ fn check(o: &GenerateOptions) -> Result<usize> {
         return only_mss("confine");
     }
     // What is made of the demands.
-    let made = BestOptions {
-        connected: false,
-        equal_volume: false,
-        smoothness: 0.0,
-        symmetry: Symmetry::None,
-        ..o.best.clone()
-    };
+    let made =
+        BestOptions { connected: false, equal_volume: false, smoothness: 0.0, ..o.best.clone() };
     if o.best != made {
         return Err(Error::Unsupported("these demands on clumps of best are not made yet".into()));
     }

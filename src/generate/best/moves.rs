@@ -9,14 +9,15 @@ use super::dexels::Seen;
 use super::directions::Directions;
 use super::medial;
 use super::random::Random;
-use super::refine::{Refiner, Schedule, Task};
+use super::refine::{Refiner, Schedule};
 use super::state::State;
+use super::symmetry::{Orbit, Orbits};
 use crate::generate::ball::Ball;
 
 /// Part of the moves that shake a ball where it is.
 const SHAKEN: f64 = 0.25;
 /// Places tried for a ball that is moved.
-const PLACES: usize = 4;
+pub(super) const PLACES: usize = 4;
 /// Most balls refined by a move.
 const AROUND: usize = 12;
 /// How many times as large as the ball that moves these may be.
@@ -30,7 +31,7 @@ const HOPE: f64 = 0.3;
 
 /// Directions of the refinements.
 pub(super) struct Fans {
-    few: Directions,
+    pub few: Directions,
     some: Directions,
     many: Directions,
 }
@@ -45,25 +46,28 @@ impl Fans {
 pub(super) struct Moved {
     pub of: Vec<u32>,
     pub balls: Vec<Ball>,
+    /// Their orbits.
+    pub orbits: Vec<Orbit>,
 }
 
 /// What tries moves: buffers, and a copy of the clump that it changes and puts back.
 #[derive(Default)]
-pub(super) struct Mover {
+pub(super) struct Mover<'a> {
     refiner: Refiner,
-    look: Look,
-    gaps: Vec<[f32; 2]>,
-    trial: Vec<Ball>,
+    pub look: Look,
+    pub gaps: Vec<[f32; 2]>,
+    pub trial: Vec<Ball>,
+    pub orbits: Orbits<'a>,
     seen: Vec<Seen>,
     /// The state's version of which `trial` is a copy.
     version: u64,
 }
 
-impl Mover {
+impl<'a> Mover<'a> {
     /// Tries a move of ball `i`; what it changes, when D falls.
     pub(super) fn attempt(
         &mut self,
-        state: &State,
+        state: &State<'a>,
         fans: &Fans,
         i: usize,
         random: &mut Random,
@@ -71,16 +75,20 @@ impl Mover {
         if self.version != state.version {
             self.trial.clone_from(&state.balls);
             self.seen.clone_from(&state.seen);
+            self.orbits.clone_from(&state.orbits);
             self.version = state.version;
         }
-        let mut of = vec![i as u32];
-        let helps = self.go(state, fans, i, &mut of, random);
+        let mut leads = vec![i as u32];
+        let helps = self.go(state, fans, i, &mut leads, random);
+        let of = self.orbits.balls(&leads);
         let balls = of.iter().map(|&j| self.trial[j as usize]).collect();
+        let orbits = leads.iter().filter_map(|&j| self.orbits.orbit(j).cloned()).collect();
         for &j in &of {
             self.trial[j as usize] = state.balls[j as usize];
             self.seen[j as usize] = state.seen[j as usize];
         }
-        helps.then_some(Moved { of, balls })
+        self.orbits.restore(&state.orbits, &of);
+        helps.then_some(Moved { of, balls, orbits })
     }
 
     fn go(
@@ -98,26 +106,33 @@ impl Mover {
                 *x += ball.radius * random.between(-0.25, 0.25) as f32;
             }
             ball.radius *= random.between(0.8, 1.2) as f32;
+            self.orbits.follow(of, &mut self.trial);
+        } else if let Some(sites) = state.orbits.sites() {
+            let [lost, without] = self.replant(sites, state, fans, of, random);
+            if lost == f64::MAX || (lost > LOST * without && random.unit() < 0.5) {
+                return false;
+            }
         } else {
             let lost = self.insert(state, fans, i, random);
             if lost > LOST * state.worth(i) && random.unit() < 0.5 {
                 return false;
             }
         }
-        self.around(state, i, of);
+        self.around(state, of);
+        let all = self.orbits.balls(of);
         let schedule = Schedule { iterations: 16, from: 4.0 * width, to: 0.4 * width };
         self.refine(state, &schedule, &fans.some, of, random);
-        let hope = HOPE * state.left() * of.len() as f64 / state.balls.len() as f64;
-        if self.cost(state, of) > hope {
+        let hope = HOPE * state.left() * all.len() as f64 / state.balls.len() as f64;
+        if self.cost(state, &all) > hope {
             return false;
         }
         let schedule = Schedule { iterations: 12, from: 0.8 * width, to: 0.2 * width };
         self.refine(state, &schedule, &fans.many, of, random);
-        self.cost(state, of) < 0.0
+        self.cost(state, &all) < 0.0
     }
 
-    /// Refines some balls of the trial.
-    fn refine(
+    /// Refines some balls of the trial, which lead.
+    pub(super) fn refine(
         &mut self,
         state: &State,
         schedule: &Schedule,
@@ -125,13 +140,7 @@ impl Mover {
         of: &[u32],
         random: &mut Random,
     ) {
-        let task = Task {
-            field: state.ground.field,
-            directions,
-            weights: state.weights(),
-            radii: state.ground.radii,
-            limits: state.ground.limits,
-        };
+        let task = state.ground.task(directions, state.weights(), &self.orbits);
         self.refiner.refine(&task, schedule, &mut self.trial, of, random, None, &mut || true);
     }
 
@@ -158,25 +167,37 @@ impl Mover {
         best.0
     }
 
-    /// Adds to `of` the balls that meet ball `i` at its old or new place, those that overlap it
-    /// most. Much larger ones stay: all their columns would have to be looked at.
-    fn around(&self, state: &State, i: usize, of: &mut Vec<u32>) {
-        let (old, new) = (&state.balls[i], &self.trial[i]);
-        let most = LARGER * old.radius.max(new.radius);
+    /// Adds to `of` who leads the balls that meet those moved at their old or new places, those
+    /// that overlap them most. Much larger ones stay: all their columns would have to be looked
+    /// at.
+    fn around(&self, state: &State, of: &mut Vec<u32>) {
+        let moved = self.orbits.balls(of);
+        let old = moved.iter().filter(|&&j| state.orbits.lead(j) == j);
+        let mut places: Vec<Ball> = old.map(|&j| state.balls[j as usize]).collect();
+        places.extend(of.iter().map(|&j| self.trial[j as usize]));
+        let most = LARGER * places.iter().fold(0.0, |r, p| p.radius.max(r));
         let mut near: Vec<(f32, u32)> = Vec::new();
         for (j, b) in (0u32..).zip(&self.trial) {
-            if j as usize != i && b.radius <= most && (b.meets(old, 0.0) || b.meets(new, 0.0)) {
+            let lead = self.orbits.lead(j);
+            if !of.contains(&lead) && b.radius <= most && places.iter().any(|p| b.meets(p, 0.0)) {
                 // How far apart the surfaces are.
                 let gap = |x: &Ball| b.apart(x).sqrt() - b.radius - x.radius;
-                near.push((gap(old).min(gap(new)), j));
+                near.push((places.iter().map(gap).fold(f32::MAX, f32::min), lead));
             }
         }
         near.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
-        of.extend(near.into_iter().take(AROUND - 1).map(|(_, j)| j));
+        for (_, lead) in near {
+            if of.len() >= AROUND {
+                break;
+            }
+            if !of.contains(&lead) {
+                of.push(lead);
+            }
+        }
     }
 
     /// The cost of the trial less that of the clump, when only the balls `of` differ.
-    fn cost(&mut self, state: &State, of: &[u32]) -> f64 {
+    pub(super) fn cost(&mut self, state: &State, of: &[u32]) -> f64 {
         let dexels = state.ground.dexels;
         for &j in of {
             self.seen[j as usize] = dexels.seen(&self.trial[j as usize]);

@@ -8,6 +8,7 @@ use super::field::Field;
 use super::limits::Limits;
 use super::near::Near;
 use super::random::Random;
+use super::symmetry::Orbits;
 use crate::generate::ball::Ball;
 use crate::run::Pool;
 use wide::f32x8;
@@ -46,6 +47,7 @@ pub(super) struct Task<'a> {
     pub weights: Weights,
     pub radii: Radii,
     pub limits: &'a Limits,
+    pub orbits: &'a Orbits<'a>,
 }
 
 /// Buffers.
@@ -62,7 +64,7 @@ pub(super) struct Refiner {
 }
 
 impl Refiner {
-    /// Refines the balls `of`, the others stay. `pool`: threads that share the balls; the result
+    /// Refines the balls `of`, which lead their orbits; balls of other orbits stay. `pool`: threads that share the balls; the result
     /// does not depend on it. `go` is asked after every iteration whether to go on.
     #[expect(clippy::too_many_arguments)]
     pub(super) fn refine(
@@ -106,7 +108,8 @@ impl Refiner {
                 };
                 let [x, y, z, r] =
                     step.map(|x| ((STEP * x) as f32).clamp(-2.0 * width, 2.0 * width));
-                [x, y, z, r, ball.radius * ball.radius * normal.exposed as f32]
+                let area = ball.radius * ball.radius * normal.exposed as f32;
+                [x, y, z, r, area * task.orbits.size(of[k]) as f32]
             };
             match pool {
                 Some(pool) => pool.chunks_mut(step, CHUNK, |c, steps| {
@@ -123,6 +126,7 @@ impl Refiner {
                 for (speed, step) in speed.iter_mut().zip(step) {
                     *speed = MOMENTUM * *speed + step;
                 }
+                task.orbits.hold(i, speed);
                 for (x, by) in ball.center.iter_mut().zip(speed.iter()) {
                     *x += by;
                 }
@@ -142,6 +146,7 @@ impl Refiner {
                 let [x, y, z, r] = *speed;
                 most = most.max((x * x + y * y + z * z).sqrt() + r.abs());
             }
+            task.orbits.follow(of, balls);
             moved += most;
             let sum: f64 = step.iter().map(|s| f64::from(s[4])).sum();
             *area = 4.0 * std::f64::consts::PI * sum / task.directions.len() as f64;

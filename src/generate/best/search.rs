@@ -6,7 +6,7 @@ use super::cover::Look;
 use super::directions::Directions;
 use super::moves::{Fans, Moved, Mover};
 use super::random::Random;
-use super::refine::{Refiner, Schedule, Task};
+use super::refine::{Refiner, Schedule};
 use super::state::State;
 use crate::run::Pool;
 use std::sync::{Mutex, PoisonError};
@@ -26,7 +26,7 @@ pub(super) struct Search<'s, 'a> {
     pub state: &'s mut State<'a>,
     pool: &'s Pool,
     fans: Fans,
-    movers: Vec<Mutex<Mover>>,
+    movers: Vec<Mutex<Mover<'a>>>,
     look: Look,
     refiner: Refiner,
     random: Random,
@@ -71,6 +71,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 continue;
             }
             if self.state.take(&moved.of, &moved.balls, &mut self.look) {
+                moved.orbits.iter().for_each(|o| self.state.orbits.set(o));
                 changed.extend(&moved.of);
                 self.helped += 1;
                 if self.helped >= self.enough {
@@ -88,10 +89,10 @@ impl<'s, 'a> Search<'s, 'a> {
         let n = state.balls.len();
         let mut best = (f64::MAX, 0);
         if self.random.unit() >= CHEAPEST {
-            best.1 = self.random.below(n);
+            best.1 = state.orbits.lead(self.random.below(n) as u32) as usize;
         } else {
             let least = 1e-3 * state.left() / n as f64;
-            for i in 0..n {
+            for i in (0..n).filter(|&i| state.orbits.lead(i as u32) as usize == i) {
                 let worth = state.worth(i).max(least);
                 let key =
                     worth * (1.0 + 0.5 * f64::from(state.tried[i])) * self.random.between(0.7, 1.3);
@@ -113,15 +114,9 @@ impl<'s, 'a> Search<'s, 'a> {
     /// state's; the clump stays as it was where that does not help.
     fn settle(&mut self, iterations: usize, [from, to]: [f32; 2], directions: &Directions) {
         let state = &mut *self.state;
-        let all: Vec<u32> = (0..state.balls.len() as u32).collect();
+        let all = state.orbits.leads(state.balls.len());
         let before = (state.goal(), state.balls.clone());
-        let task = Task {
-            field: state.ground.field,
-            directions,
-            weights: state.weights(),
-            radii: state.ground.radii,
-            limits: state.ground.limits,
-        };
+        let task = state.ground.task(directions, state.weights(), &state.orbits);
         let schedule = Schedule { iterations, from: from * state.width, to: to * state.width };
         let shared = (all.len() * directions.len() >= SHARED).then_some(self.pool);
         let balls = &mut state.balls;

@@ -10,7 +10,7 @@ use crate::generate::select::choose;
 
 /// Candidates are larger than fits by this factor: balls that reach out a little everywhere cover
 /// better for the same mismatch.
-const GROWN: f32 = 1.05;
+pub(super) const GROWN: f32 = 1.05;
 /// How far beyond the limits a candidate may reach, of its radius.
 const SLACK: f32 = 0.01;
 

@@ -3,12 +3,14 @@
 
 use super::cover::{Cover, Lengths, Look};
 use super::dexels::{Dexels, Seen};
+use super::directions::Directions;
 use super::exposed::Weights;
 use super::field::Field;
 use super::limits::Limits;
 use super::piles::Piles;
 use super::random::Random;
-use super::refine::Radii;
+use super::refine::{Radii, Task};
+use super::symmetry::Orbits;
 use crate::error::{Result, filled, reserve};
 use crate::generate::ball::Ball;
 
@@ -25,10 +27,24 @@ pub(super) struct Ground<'a> {
     pub size: f32,
 }
 
+impl Ground<'_> {
+    /// A refinement of balls in these orbits.
+    pub(super) fn task<'t>(
+        &'t self,
+        directions: &'t Directions,
+        weights: Weights,
+        orbits: &'t Orbits<'t>,
+    ) -> Task<'t> {
+        let Ground { field, limits, radii, .. } = *self;
+        Task { field, directions, weights, radii, limits, orbits }
+    }
+}
+
 /// A clump with its books.
 pub(super) struct State<'a> {
     pub ground: Ground<'a>,
     pub balls: Vec<Ball>,
+    pub orbits: Orbits<'a>,
     pub seen: Vec<Seen>,
     pub cover: Cover,
     pub piles: Piles,
@@ -53,6 +69,7 @@ impl<'a> State<'a> {
     pub(super) fn new(
         ground: Ground<'a>,
         balls: Vec<Ball>,
+        orbits: Orbits<'a>,
         moves: bool,
         look: &mut Look,
     ) -> Result<State<'a>> {
@@ -61,6 +78,7 @@ impl<'a> State<'a> {
             ground,
             seen: reserve("balls along the columns", n)?,
             balls,
+            orbits,
             cover: Cover::new(ground.dexels)?,
             piles: Piles::new(ground.dexels)?,
             lengths: Lengths::default(),
@@ -113,9 +131,15 @@ impl<'a> State<'a> {
         self.width = width.max(least) as f32;
     }
 
-    /// By how much the cost would rise without ball `i`.
+    /// By how much the cost would rise without ball `i`; of an orbit, the mean.
     pub(super) fn worth(&self, i: usize) -> f64 {
-        -self.cost(&self.alone[i])
+        match self.orbits.orbit(i as u32) {
+            None => -self.cost(&self.alone[i]),
+            Some(o) => {
+                let sum: f64 = o.balls.iter().map(|&j| self.cost(&self.alone[j as usize])).sum();
+                -sum / o.balls.len() as f64
+            }
+        }
     }
 
     /// Counts everything anew from the balls.

@@ -1,0 +1,175 @@
+//! Clumps that are their own images.
+
+#![allow(clippy::panic, clippy::unwrap_used)]
+
+use morula::clump::Stopped;
+use morula::generate::{
+    BestOptions, Effort, GenerateOptions, HalfSpace, Method, Symmetry, generate,
+};
+use morula::math::{Sphere, Vec3};
+use morula::shape::primitive::Primitive;
+use morula::shape::{ImportOptions, Shape};
+use morula::solid::{Resolution, SolidOptions};
+use morula::{Clump, Error, Run, Solid};
+
+fn solid_of(shape: &Shape, cells: u32) -> Solid {
+    let resolution = Resolution::CellsLongest(cells);
+    let options = SolidOptions { resolution, ..SolidOptions::default() };
+    Solid::new(shape, &options, &Run::serial()).unwrap()
+}
+
+fn solid(name: &str, cells: u32) -> Solid {
+    let primitive = Primitive::from_name(name).unwrap();
+    let options = ImportOptions::default();
+    solid_of(&Shape::from_primitive(&primitive, 48, &options, &Run::serial()).unwrap(), cells)
+}
+
+fn planes(normals: &[[f64; 3]]) -> Symmetry {
+    Symmetry::Planes(normals.iter().map(|n| Vec3::from(*n)).collect())
+}
+
+const THREE: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+fn ask(spheres: usize, effort: Effort, symmetry: Symmetry) -> GenerateOptions {
+    GenerateOptions {
+        method: Method::Best,
+        spheres,
+        effort,
+        best: BestOptions { symmetry, ..BestOptions::default() },
+        ..GenerateOptions::default()
+    }
+}
+
+fn make(solid: &Solid, n: usize, effort: Effort, symmetry: Symmetry) -> Clump {
+    generate(solid, &ask(n, effort, symmetry), &Run::serial()).unwrap()
+}
+
+/// How far the clump is from its image in the plane through `center`, in the worst sphere.
+fn off(spheres: &[Sphere], center: &Vec3, normal: &Vec3) -> f64 {
+    let n = normal.normalize();
+    let apart = |s: &Sphere| {
+        let image = s.center - n * (2.0 * n.dot(&(s.center - center)));
+        let one = |t: &Sphere| (t.center - image).norm() + (t.radius - s.radius).abs();
+        spheres.iter().map(one).fold(f64::MAX, f64::min)
+    };
+    spheres.iter().map(apart).fold(0.0, f64::max)
+}
+
+#[test]
+fn spheres_are_images_in_the_planes_given() {
+    let h = 0.75f64.sqrt();
+    for (name, normals) in [
+        ("box", vec![[1.0, 1.0, 0.0]]),
+        ("cone", vec![[1.0, 0.0, 0.0], [0.5, h, 0.0]]),
+        ("ellipsoid", THREE.to_vec()),
+        // Not of the body: the clump has it all the same.
+        ("stone", vec![[0.3, -0.2, 0.9]]),
+    ] {
+        let solid = solid(name, 32);
+        let center = solid.moments().centroid;
+        for (n, effort) in [(6, Effort::Normal), (40, Effort::Draft), (90, Effort::Normal)] {
+            let clump = make(&solid, n, effort, planes(&normals));
+            assert_eq!((clump.spheres.len(), clump.stopped), (n, Stopped::Spheres));
+            for normal in &normals {
+                let off = off(&clump.spheres, &center, &Vec3::from(*normal));
+                assert!(off < 1e-14, "{name} {n} {normal:?}: {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn any_number_that_images_can_make_up_is_honoured() {
+    let solid = solid("ellipsoid", 24);
+    for n in (1..=30).chain([50, 100]) {
+        let clump = make(&solid, n, Effort::Draft, planes(&THREE));
+        assert_eq!((clump.spheres.len(), clump.note.as_str()), (n, ""));
+        assert!(clump.spheres.iter().all(|s| s.radius > 0.0));
+    }
+}
+
+#[test]
+fn a_number_that_images_cannot_make_up_is_said() {
+    let solid = solid("box", 24);
+    let cube = planes(&[[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 1.0]]);
+    for (n, most) in [(1, 1), (2, 1), (5, 1), (6, 6), (7, 7), (11, 9), (25, 25), (50, 50)] {
+        let clump = make(&solid, n, Effort::Draft, cube.clone());
+        assert_eq!(clump.spheres.len(), most);
+        assert_eq!(clump.stopped == Stopped::Exhausted, most < n);
+        assert_eq!(clump.note.contains("48, 24, 12, 8, 6 or 1"), most < n, "{}", clump.note);
+    }
+}
+
+#[test]
+fn planes_with_too_many_images_are_named() {
+    let solid = solid("box", 24);
+    let bad = planes(&[[1.0, 0.0, 0.0], [1.0, 0.3, 0.0]]);
+    let result = generate(&solid, &ask(10, Effort::Draft, bad), &Run::serial());
+    let Err(Error::InvalidArgument(text)) = result else { panic!("taken") };
+    assert!(text.contains("(1, 0.3, 0)"), "{text}");
+}
+
+#[test]
+fn limits_are_kept_by_all_images() {
+    let solid = solid("box", 32);
+    let center = solid.moments().centroid;
+    let half = |x: f64, offset: f64| HalfSpace { normal: Vec3::new(x, 0.0, 0.0), offset };
+    let with = |half_spaces: Vec<HalfSpace>| {
+        let mut options = ask(30, Effort::Normal, planes(&THREE));
+        options.best =
+            BestOptions { half_spaces, max_protrusion: 0.01, max_radius: 0.3, ..options.best };
+        options
+    };
+    let both = with(vec![half(1.0, 0.4), half(-2.0, 0.8)]);
+    let clump = generate(&solid, &both, &Run::serial()).unwrap();
+    assert_eq!(clump.spheres.len(), 30, "{}", clump.note);
+    let reach = |s: &Sphere| s.center.x.abs() + s.radius;
+    assert!(clump.spheres.iter().all(|s| s.radius <= 0.3 && reach(s) <= 0.4 + 1e-12));
+    for normal in THREE {
+        assert!(off(&clump.spheres, &center, &Vec3::from(normal)) < 1e-14);
+    }
+    let one = with(vec![half(1.0, 0.4)]);
+    let Err(Error::InvalidArgument(text)) = generate(&solid, &one, &Run::serial()) else {
+        panic!("taken")
+    };
+    assert!(text.contains("half-space 0"), "{text}");
+}
+
+#[test]
+fn no_plane_is_no_symmetry() {
+    let solid = solid("torus", 24);
+    let none = make(&solid, 12, Effort::Normal, Symmetry::None);
+    assert_eq!(none.spheres, make(&solid, 12, Effort::Normal, planes(&[])).spheres);
+}
+
+#[test]
+fn the_same_bytes_come_out_for_any_number_of_threads() {
+    let solid = solid("torus", 32);
+    for (n, effort) in [(12, Effort::Normal), (420, Effort::Draft)] {
+        let options = ask(n, effort, planes(&THREE[..2]));
+        let make = |threads: usize, seed: u64| {
+            let run = Run::new(threads).unwrap().with_seed(seed);
+            generate(&solid, &options, &run).unwrap().spheres
+        };
+        let one = make(1, 0);
+        assert_eq!(one, make(2, 0));
+        assert_eq!(one, make(8, 0));
+        assert_ne!(one, make(1, 1));
+    }
+}
+
+#[test]
+fn deadline_and_cancel_give_symmetric_clumps() {
+    let solid = solid("ellipsoid", 32);
+    let center = solid.moments().centroid;
+    let options = ask(20, Effort::Thorough, planes(&THREE));
+    let late = Run::serial().with_deadline(0.0);
+    let cancelled = Run::serial().with_progress(Box::new(|f| f > 0.2));
+    for (run, stopped) in [(late, Stopped::Deadline), (cancelled, Stopped::Cancelled)] {
+        let clump = generate(&solid, &options, &run).unwrap();
+        assert_eq!((clump.spheres.len(), clump.stopped), (20, stopped));
+        for normal in THREE {
+            assert!(off(&clump.spheres, &center, &Vec3::from(normal)) < 1e-14);
+        }
+    }
+}
