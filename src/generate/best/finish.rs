@@ -1,5 +1,6 @@
 //! The end of a search: spheres in the caller's frame that keep their limits exactly.
 
+use super::connected;
 use super::limits::Exact;
 use super::symmetry::Orbits;
 use crate::error::{Error, Result, figure, reserve};
@@ -60,4 +61,17 @@ fn together(exact: &Exact, mut images: Vec<Sphere>) -> Vec<Sphere> {
     }
     images.iter_mut().for_each(|s| s.radius = radius);
     images
+}
+
+/// The note, and what is to be said of spheres that should hang together and do not.
+pub(super) fn pieces(spheres: &[Sphere], mut note: String) -> String {
+    let parts = connected::count(spheres);
+    if parts > 1 {
+        if !note.is_empty() {
+            note.push_str("; ");
+        }
+        note +=
+            &format!("the spheres are {parts} parts that the limits keep from hanging together");
+    }
+    note
 }

@@ -7,6 +7,7 @@
 //! with what is around them refined, and kept when the mismatch by exact columns falls.
 
 mod chords;
+mod connected;
 mod cover;
 mod dexels;
 mod directions;
@@ -86,6 +87,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         radii,
         limits: &limits,
         overshoot,
+        connected: asked.connected,
         size: size as f32,
     };
     let mut look = Look::default();
@@ -102,6 +104,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     };
     let start = Start { ground, plan, n, run };
     let mut state = start.state(sites.as_ref(), &mut look, &mut go)?;
+    state.join(&mut look);
     let mut search = Search::new(&mut state, run.seed(), run.pool());
     let batches = plan.moves.div_ceil(BATCH);
     for k in 0..batches {
@@ -129,6 +132,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         Stopped::Cancelled => format!("cancelled by the caller at a mismatch of about {d:.4}"),
         _ => short,
     };
+    let note = if asked.connected { finish::pieces(&spheres, note) } else { note };
     if spheres.len() < n && stopped == Stopped::Spheres {
         stopped = Stopped::Exhausted;
     }
@@ -150,8 +154,7 @@ fn check(o: &GenerateOptions) -> Result<usize> {
         return only_mss("confine");
     }
     // What is made of the demands.
-    let made =
-        BestOptions { connected: false, equal_volume: false, smoothness: 0.0, ..o.best.clone() };
+    let made = BestOptions { equal_volume: false, smoothness: 0.0, ..o.best.clone() };
     if o.best != made {
         return Err(Error::Unsupported("these demands on clumps of best are not made yet".into()));
     }

@@ -115,7 +115,7 @@ impl<'s, 'a> Search<'s, 'a> {
     fn settle(&mut self, iterations: usize, [from, to]: [f32; 2], directions: &Directions) {
         let state = &mut *self.state;
         let all = state.orbits.leads(state.balls.len());
-        let before = (state.goal(), state.balls.clone());
+        let before = (state.goal(), state.balls.clone(), state.parts);
         let task = state.ground.task(directions, state.weights(), &state.orbits);
         let schedule = Schedule { iterations, from: from * state.width, to: to * state.width };
         let shared = (all.len() * directions.len() >= SHARED).then_some(self.pool);
@@ -123,8 +123,9 @@ impl<'s, 'a> Search<'s, 'a> {
         let random = &mut self.random;
         self.refiner.refine(&task, &schedule, balls, &all, random, shared, &mut || true);
         state.renew(&mut self.look);
-        if state.goal() >= before.0 {
-            state.balls = before.1;
+        state.join(&mut self.look);
+        if state.goal() >= before.0 || state.parts > before.2 {
+            (state.balls, state.parts) = (before.1, before.2);
             state.renew(&mut self.look);
         } else {
             state.measure_width(self.refiner.area);

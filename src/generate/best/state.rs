@@ -1,12 +1,14 @@
 //! A clump on its way down: its balls, what the columns hold of it, what each ball is worth, and
 //! where something is missing.
 
+use super::connected;
 use super::cover::{Cover, Lengths, Look};
 use super::dexels::{Dexels, Seen};
 use super::directions::Directions;
 use super::exposed::Weights;
 use super::field::Field;
 use super::limits::Limits;
+use super::near::Near;
 use super::piles::Piles;
 use super::random::Random;
 use super::refine::{Radii, Task};
@@ -23,6 +25,8 @@ pub(super) struct Ground<'a> {
     pub limits: &'a Limits,
     /// How many times clump beyond the target counts.
     pub overshoot: f64,
+    /// Whether the clump must hang together.
+    pub connected: bool,
     /// A length of the order of the body.
     pub size: f32,
 }
@@ -57,6 +61,9 @@ pub(super) struct State<'a> {
     rows: Vec<f64>,
     /// Whether the books are kept that moves need: what columns hold ball by ball.
     books: bool,
+    /// How many parts the clump has, where it must hang together; else 1.
+    pub parts: usize,
+    near: Near,
     /// Changes so far.
     pub version: u64,
     /// How far the surfaces of clump and target are apart in the mean: the measure of Huber's
@@ -86,6 +93,8 @@ impl<'a> State<'a> {
             tried: filled("moves of balls", n, 0)?,
             rows: reserve("rows of columns", ground.dexels.dims[1])?,
             books: moves,
+            parts: 1,
+            near: Near::default(),
             version: 0,
             width: ground.size,
         };
@@ -161,6 +170,32 @@ impl<'a> State<'a> {
         }
     }
 
+    /// Joins the parts of a clump that must hang together.
+    pub(super) fn join(&mut self, look: &mut Look) {
+        if self.ground.connected {
+            self.parts = connected::join(self, look);
+        }
+    }
+
+    /// Whether the clump would have more parts with `balls` at the places of those `of`.
+    fn falls_apart(&mut self, of: &[u32], balls: &[Ball]) -> bool {
+        if !self.ground.connected {
+            return false;
+        }
+        let mut all = self.balls.clone();
+        for (&j, ball) in of.iter().zip(balls) {
+            all[j as usize] = *ball;
+        }
+        connected::parts(&all, &mut self.near).1 > self.parts
+    }
+
+    /// By how much the cost would rise if these were the balls.
+    pub(super) fn cost_of(&self, balls: &[Ball], look: &mut Look) -> f64 {
+        let seen: Vec<Seen> = balls.iter().map(|b| self.ground.dexels.seen(b)).collect();
+        look.region.all(self.ground.dexels);
+        self.cost(&look.change(&self.cover, self.ground.dexels, &seen))
+    }
+
     /// Puts `balls` to the places of those with the numbers `of` if the goal falls; whether it does.
     pub(super) fn take(&mut self, of: &[u32], balls: &[Ball], look: &mut Look) -> bool {
         let dexels = self.ground.dexels;
@@ -170,7 +205,7 @@ impl<'a> State<'a> {
         }
         self.aim(of, &seen, look);
         let change = look.exchange(&self.cover, &self.piles, dexels, of, &seen);
-        if self.cost(&change) >= 0.0 {
+        if self.cost(&change) >= 0.0 || self.falls_apart(of, balls) {
             return false;
         }
         look.take(&mut self.cover, &mut self.piles, dexels, &mut self.alone);
