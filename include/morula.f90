@@ -93,6 +93,7 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_METHOD_SURFACE_FIT = 2_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_INSCRIBED = 3_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_COVER = 4_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_METHOD_PACKED = 5_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_EUCLIDEAN = 10_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_FERELLEC_MCDOWELL = 11_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_METHOD_FAVIER = 12_c_int32_t

@@ -232,6 +232,11 @@
 /// surface.
 #define MORULA_METHOD_COVER 4
 
+/// Spheres of nearly one radius (within 5 %) that do not overlap and keep within the surface, as
+/// large as their number allows, or as many as fit with at least min_radius: the grains of a body
+/// that may break. They cover about half of its volume.
+#define MORULA_METHOD_PACKED 5
+
 /// The greatest ball in what is left of the body, again and again.
 #define MORULA_METHOD_EUCLIDEAN 10
 

@@ -385,6 +385,21 @@ static void clumps(void) {
     CHECK(distance + xyzr[i][3] <= 1e-9);
   }
   morula_clump_free(clump);
+
+  /* Packed: of nearly one size, and no two overlap. */
+  options.confine = 0;
+  options.method = MORULA_METHOD_PACKED;
+  OK(morula_clump_from_solid(solid, &options, &clump));
+  OK(morula_clump_copy_spheres(clump, 20, xyzr[0]));
+  for (int i = 0; i < 20; i++) {
+    CHECK(xyzr[i][3] <= 1.05 * xyzr[19][3]);
+    for (int j = 0; j < i; j++) {
+      double apart2 = 0, radii = xyzr[i][3] + xyzr[j][3];
+      for (int k = 0; k < 3; k++) apart2 += (xyzr[i][k] - xyzr[j][k]) * (xyzr[i][k] - xyzr[j][k]);
+      CHECK(apart2 >= radii * radii * (1 - 1e-12));
+    }
+  }
+  morula_clump_free(clump);
   morula_solid_free(solid);
   morula_shape_free(shape);
 }

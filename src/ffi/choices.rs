@@ -86,6 +86,10 @@ pub const MORULA_METHOD_INSCRIBED: i32 = 3;
 /// Largest inscribed spheres about a thinned skeleton by greedy set cover: none reaches beyond the
 /// surface.
 pub const MORULA_METHOD_COVER: i32 = 4;
+/// Spheres of nearly one radius (within 5 %) that do not overlap and keep within the surface, as
+/// large as their number allows, or as many as fit with at least min_radius: the grains of a body
+/// that may break. They cover about half of its volume.
+pub const MORULA_METHOD_PACKED: i32 = 5;
 /// The greatest ball in what is left of the body, again and again.
 pub const MORULA_METHOD_EUCLIDEAN: i32 = 10;
 /// The greatest spheres that touch the surface from inside at its points (Ferellec, McDowell).

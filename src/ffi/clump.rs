@@ -85,6 +85,7 @@ pub(super) unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<(
         MORULA_METHOD_SURFACE_FIT => Method::SurfaceFit,
         MORULA_METHOD_INSCRIBED => Method::Inscribed,
         MORULA_METHOD_COVER => Method::Cover,
+        MORULA_METHOD_PACKED => Method::Packed,
         MORULA_METHOD_EUCLIDEAN => Method::Euclidean,
         MORULA_METHOD_FERELLEC_MCDOWELL => Method::FerellecMcDowell,
         MORULA_METHOD_FAVIER => Method::Favier,

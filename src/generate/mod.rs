@@ -6,6 +6,7 @@ pub mod best;
 pub mod cover;
 mod many;
 pub mod mss;
+mod packed;
 mod select;
 mod surface_fit;
 
@@ -37,6 +38,10 @@ pub enum Method {
     /// Largest inscribed spheres about a thinned skeleton by greedy set cover (Yuan 2019): none
     /// reaches beyond the surface.
     Cover,
+    /// Spheres of nearly one radius (within 5 %) that do not overlap and keep within the surface, as
+    /// large as their number allows: the grains of a body that may break. They cover it poorly:
+    /// about half of the volume at 20 to 100 spheres, never three quarters.
+    Packed,
     /// The greatest ball in what is left of the body, again and again (CLUMP, Angelidakis et al.
     /// 2021), each ball shrunk by the overlap and taken away.
     Euclidean,
@@ -125,6 +130,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
         Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
         Method::Inscribed => best::inscribed::inscribed(solid, options, run),
         Method::Cover => cover::cover(solid, options, run),
+        Method::Packed => packed::packed(solid, options, run),
         Method::Euclidean => baselines::euclidean(solid, options, run),
         Method::FerellecMcDowell => baselines::ferellec_mcdowell(solid, options, run),
         Method::Favier => baselines::favier(solid, options, run),

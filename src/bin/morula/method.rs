@@ -16,6 +16,9 @@ pub enum MethodArg {
     /// Largest inscribed spheres by thinning and greedy set cover (paper of Yuan): none reaches
     /// beyond the surface
     Cover,
+    /// Equal spheres (within 5 %) that do not overlap, within the surface, for bodies that break;
+    /// they cover about half of the volume
+    Packed,
     /// The greatest ball in what is left, again and again (CLUMP)
     Euclidean,
     /// The greatest balls that touch the surface from inside at its points
@@ -45,6 +48,7 @@ impl From<MethodArg> for Method {
             MethodArg::SurfaceFit => Method::SurfaceFit,
             MethodArg::Inscribed => Method::Inscribed,
             MethodArg::Cover => Method::Cover,
+            MethodArg::Packed => Method::Packed,
             MethodArg::Euclidean => Method::Euclidean,
             MethodArg::FerellecMcDowell => Method::FerellecMcDowell,
             MethodArg::Favier => Method::Favier,

@@ -14,7 +14,7 @@ const MOST: usize = 1000;
 
 /// From `start`, where the function is `value`, by steps no longer than `step`: the place reached
 /// and the value there. The function may not rise faster than by its argument's way.
-pub(super) fn climb(
+pub(in crate::generate) fn climb(
     start: Vec3,
     value: f64,
     mut step: f64,

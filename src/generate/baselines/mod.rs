@@ -2,7 +2,7 @@
 //!
 //! What differs from the sources, and why, is in docs/baselines.md.
 
-mod climb;
+pub(super) mod climb;
 mod euclidean;
 mod favier;
 mod ferellec_mcdowell;

@@ -23,7 +23,7 @@ mod moves;
 mod near;
 mod options;
 mod piles;
-mod random;
+pub(super) mod random;
 mod refine;
 mod search;
 mod seeds;

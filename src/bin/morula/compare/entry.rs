@@ -34,6 +34,8 @@ pub enum Entry {
     Favier,
     /// Balls about the cells of the grid
     UniformGrid,
+    /// Equal spheres that do not overlap
+    Packed,
 }
 
 impl Entry {
@@ -61,6 +63,7 @@ impl Entry {
             Entry::FerellecMcDowell => (Method::FerellecMcDowell, Effort::Normal),
             Entry::Favier => (Method::Favier, Effort::Normal),
             Entry::UniformGrid => (Method::UniformGrid, Effort::Normal),
+            Entry::Packed => (Method::Packed, Effort::Normal),
         };
         GenerateOptions { method, effort, spheres, ..GenerateOptions::default() }
     }
