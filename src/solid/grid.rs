@@ -101,6 +101,26 @@ const ACROSS_THICKNESS: f64 = 1.5;
 /// not two that are half covered.
 const ACROSS_LEAST: f64 = 0.9;
 
+/// A grid of larger cells about a solid's mesh, `cells` along its longest edge or more where it is
+/// thin; the solid's own where that is not finer.
+pub(super) fn coarser(solid: &Solid, mesh: &Mesh, cells: u32) -> Grid {
+    let grid = solid.grid();
+    let Some((lo, hi)) = moments::bounds(mesh) else { return *grid };
+    let edges = hi - lo;
+    let thickness = 2.0 * solid.unit_moments().volume / moments::area(mesh);
+    let wanted = (edges.min() / ACROSS_BOX).min(thickness / ACROSS_THICKNESS);
+    let h = (edges.max() / f64::from(cells.max(1))).min(wanted);
+    if h.is_nan() || h <= 1.001 * grid.spacing.x {
+        return *grid;
+    }
+    let dims = [0, 1, 2].map(|a| (edges[a] / h).ceil().max(1.0) as usize + 2 * ROOM);
+    let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
+    Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half }
+}
+
+/// Empty cells about the mesh in a coarser grid.
+const ROOM: usize = 4;
+
 /// Makes the solid: grid, inside, moments.
 pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<Solid> {
     if options.padding < 2 {

@@ -1,7 +1,7 @@
 //! Exact volume, centroid and inertia of a body.
 
 use super::Columns;
-use super::columns::{Lattice, closed};
+use super::columns::{Lattice, Rows, closed};
 use super::winding::Winding;
 use crate::error::{Error, Result};
 use crate::math::{Inertia, Moments, Vec3};
@@ -51,11 +51,20 @@ pub(super) fn within(body: &Body, limit: u64, run: &Run) -> Result<Moments> {
                 return by_columns(body, [lo, hi], n, limit, run);
             }
             let exact = of_polyhedron(mesh, &((lo + hi) * 0.5), run);
+            run.check(0.0, "looking for overlaps")?;
+            let pool = run.pool();
+            let look = |axis, limit| -> Result<f64> {
+                let lattice = lattice(axis, [lo, hi], LOOK, true)?;
+                Ok(Columns::of(&Rows::of_body(body, lattice, limit)?, pool)?.miscounted)
+            };
             let mut miscounted = 0.0f64;
-            for axis in 0..3 {
-                run.check(0.0, "looking for overlaps")?;
-                let c = columns(body, axis, [lo, hi], LOOK, true, limit, run)?;
-                miscounted = miscounted.max(c.miscounted);
+            for (axis, found) in pool.map(3, |axis| look(axis, limit / 3)).into_iter().enumerate() {
+                // What is too much at once may fit one after the other.
+                let found = match found {
+                    Err(Error::MemoryLimit(_)) => look(axis, limit),
+                    found => found,
+                };
+                miscounted = miscounted.max(found?);
             }
             if miscounted > OVERLAP * exact.volume.abs() {
                 return by_columns(body, [lo, hi], CLOSED, limit, run);
@@ -226,26 +235,17 @@ const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 
 
 /// `n` × `n` columns over the box `lo`, `hi`: slanted, so that faces parallel to an axis are
 /// sampled as evenly as others; or straight, and half as many, for open meshes.
-fn columns(
-    body: &Body,
-    axis: usize,
-    [lo, hi]: [Vec3; 2],
-    n: usize,
-    slanted: bool,
-    limit: u64,
-    run: &Run,
-) -> Result<Columns> {
+fn lattice(axis: usize, [lo, hi]: [Vec3; 2], n: usize, slanted: bool) -> Result<Lattice> {
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
     if hi[u] <= lo[u] || hi[v] <= lo[v] {
         return Err(Error::ZeroVolume("the mesh is flat: its box has no volume".into()));
     }
     let (a, b) = ([lo[u], lo[v]], [hi[u], hi[v]]);
-    let lattice = if slanted {
+    Ok(if slanted {
         Lattice::slanted(axis, n, a, b)
     } else {
         Lattice::straight(axis, [n, n], a, [0, 1].map(|k| (b[k] - a[k]) / n as f64))
-    };
-    Columns::within(body, lattice, limit, 0, run)
+    })
 }
 
 /// Moments from `n` × `n` columns along each axis: the mean of the three, and as error
@@ -263,7 +263,8 @@ fn by_columns(
     let mut parts = [Sums::default(); 3];
     for axis in 0..3 {
         run.check(0.0, "integrating by columns")?;
-        let c = columns(body, axis, [lo, hi], n, n > OPEN, limit, run)?;
+        let lattice = lattice(axis, [lo, hi], n, n > OPEN)?;
+        let c = Columns::within(body, lattice, limit, 0, run)?;
         let lattice = c.lattice();
         let m = [middle[(axis + 1) % 3], middle[(axis + 2) % 3]];
         let mut sums = Sums::default();

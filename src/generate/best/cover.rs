@@ -132,6 +132,13 @@ impl Region {
         }
     }
 
+    /// Keeps every `step`th row.
+    pub(super) fn thin(&mut self, step: u32) {
+        if step > 1 {
+            self.runs.retain(|r| r[0].is_multiple_of(step));
+        }
+    }
+
     /// Numbers of its rows.
     pub(super) fn rows(&self) -> impl Iterator<Item = usize> {
         self.runs.chunk_by(|x, y| x[0] == y[0]).filter_map(|r| r.first()).map(|r| r[0] as usize)
@@ -157,6 +164,11 @@ impl Cover {
     pub(super) fn new(dexels: &Dexels) -> Result<Cover> {
         let columns = filled("covered columns", dexels.dims[0] * dexels.dims[1], [0.0; 2])?;
         Ok(Cover { columns })
+    }
+
+    /// Bytes that it holds.
+    pub(super) fn bytes(&self) -> u64 {
+        self.columns.len() as u64 * 8
     }
 
     /// Takes over what the last [`Look::change`] found.

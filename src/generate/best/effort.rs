@@ -25,6 +25,8 @@ pub(super) struct Plan {
     /// Directions and iterations of the first refinement.
     pub directions: usize,
     pub iterations: usize,
+    /// Cells of the distance field along the longest edge, where the solid has more.
+    pub cells: u32,
     /// Columns that meet the target.
     pub columns: usize,
     /// Moves tried.
@@ -46,6 +48,7 @@ impl Effort {
                 candidates: wide(300, 5),
                 directions: 48,
                 iterations: 60,
+                cells: (44.0 * (n as f64 / 50.0).cbrt()).clamp(44.0, 1e6) as u32,
                 columns: add(1000, 10),
                 moves: 0,
                 polish: [0, 0],
@@ -55,6 +58,7 @@ impl Effort {
                 candidates: wide(800, 6),
                 directions: 96,
                 iterations: 100,
+                cells: u32::MAX,
                 columns: add(1500, 15),
                 moves: moves(160),
                 polish: [192, 50],
@@ -64,6 +68,7 @@ impl Effort {
                 candidates: wide(1500, 6),
                 directions: 96,
                 iterations: 100,
+                cells: u32::MAX,
                 columns: add(4000, 60),
                 moves: moves(4000),
                 polish: [384, 60],

@@ -88,7 +88,7 @@ impl Sampler<'_> {
         for (g, ((x, y), z)) in groups.take(exposed.div_ceil(8)).enumerate() {
             let (x, y, z) = (f32x8::from(x), f32x8::from(y), f32x8::from(z));
             let f = self.field.at([x * radius + cx, y * radius + cy, z * radius + cz]);
-            let mut w = f.simd_lt(zero).select(inside, outside);
+            let mut w = outside ^ (f.simd_lt(zero) & (inside ^ outside));
             if 8 * g + 8 > exposed {
                 let mut there = [0.0; 8];
                 there[..exposed - 8 * g].fill(1.0);
@@ -120,7 +120,7 @@ impl Sampler<'_> {
 }
 
 /// The exposed directions, and how many; what comes after them is of no meaning.
-fn exposed(directions: &[[f32x8; 3]], caps: &[Cap], open: &mut [Vec<f32>; 3]) -> usize {
+fn exposed(directions: &[[f32x8; 3]], caps: &mut [Cap], open: &mut [Vec<f32>; 3]) -> usize {
     let [ox, oy, oz] = open;
     for v in [&mut *ox, &mut *oy, &mut *oz] {
         v.clear();
@@ -129,14 +129,14 @@ fn exposed(directions: &[[f32x8; 3]], caps: &[Cap], open: &mut [Vec<f32>; 3]) ->
     let mut n = 0;
     for [x, y, z] in directions {
         let mut hidden = 0u32;
-        for c in caps {
+        let last = caps.iter().position(|c| {
             let dot = *x * c.axis[0] + *y * c.axis[1] + *z * c.axis[2];
             hidden |= dot.simd_gt(f32x8::splat(c.cos)).to_bitmask();
-            if hidden == 0xff {
-                break;
-            }
-        }
-        if hidden == 0xff {
+            hidden == 0xff
+        });
+        if let Some(last) = last {
+            // The next group is near: likely the same cap hides it.
+            caps.swap(0, last);
             continue;
         }
         let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
@@ -173,7 +173,7 @@ pub(super) fn outward<'b>(
     (open.each_ref().map(|o| o.iter().take(count).sum()), count as f32)
 }
 
-/// The caps of `ball` that `others` hide, the most hiding first; false when one hides it all.
+/// The caps of `ball` that `others` hide; false when one hides it all.
 fn caps_of<'b>(ball: &Ball, others: impl Iterator<Item = &'b Ball>, caps: &mut Vec<Cap>) -> bool {
     caps.clear();
     let r2 = ball.radius * ball.radius;
@@ -193,7 +193,6 @@ fn caps_of<'b>(ball: &Ball, others: impl Iterator<Item = &'b Ball>, caps: &mut V
         let inverse = 1.0 / distance.max(f32::MIN_POSITIVE);
         caps.push(Cap { axis: [x * inverse, y * inverse, z * inverse], cos: along * inverse });
     }
-    caps.sort_unstable_by(|x, y| x.cos.total_cmp(&y.cos));
     true
 }
 

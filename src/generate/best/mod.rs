@@ -52,7 +52,7 @@ use start::Start;
 use state::Ground;
 use target::Target;
 
-/// Most spheres of a clump.
+/// Most spheres of a clump. Their numbers fit in the tags of chords.
 const MOST: usize = 100_000;
 /// Least radius, as a part of the body's size.
 const LEAST: f64 = 0.002;
@@ -66,7 +66,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let sites = symmetry::sites(solid, asked, &planes)?;
     let n = sites.as_ref().map_or(wanted, |s| s.most(wanted));
     let plan = options.effort.plan(n);
-    let Target { field, dexels, volume } = Target::new(solid, &planes, plan.columns, run)?;
+    let Target { field, dexels, volume } = Target::new(solid, &planes, &plan, run)?;
     run.count(|c| {
         c.columns += (dexels.dims[0] * dexels.dims[1]) as u64;
         c.peak_bytes = c.peak_bytes.max(solid.bytes() + field.bytes() + dexels.bytes());
@@ -105,6 +105,10 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let start = Start { ground, plan, n, run };
     let mut state = start.state(sites.as_ref(), &mut look, &mut go)?;
     state.join(&mut look);
+    run.count(|c| {
+        let held = solid.bytes() + field.bytes() + dexels.bytes() + state.bytes();
+        c.peak_bytes = c.peak_bytes.max(held);
+    });
     let mut search = Search::new(&mut state, run.seed(), run.pool());
     let batches = plan.moves.div_ceil(BATCH);
     for k in 0..batches {

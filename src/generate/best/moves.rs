@@ -29,6 +29,10 @@ const LOST: f64 = 0.6;
 /// many balls, and is still refined further.
 const HOPE: f64 = 0.3;
 
+/// Until it is decided whether a move is kept, no more rows of columns are looked at than so many
+/// through the ball that moves.
+const ROWS: f32 = 8.0;
+
 /// Directions of the refinements.
 pub(super) struct Fans {
     pub few: Directions,
@@ -38,7 +42,7 @@ pub(super) struct Fans {
 
 impl Fans {
     pub(super) fn new() -> Fans {
-        Fans { few: Directions::new(32), some: Directions::new(64), many: Directions::new(192) }
+        Fans { few: Directions::new(32), some: Directions::new(64), many: Directions::new(128) }
     }
 }
 
@@ -123,7 +127,7 @@ impl<'a> Mover<'a> {
         let schedule = Schedule { iterations: 16, from: 4.0 * width, to: 0.4 * width };
         self.refine(state, &schedule, &fans.some, of, random);
         let hope = HOPE * state.left() * all.len() as f64 / state.balls.len() as f64;
-        if self.cost(state, &all) > hope {
+        if self.rough_cost(state, &all, i) > hope {
             return false;
         }
         let schedule = Schedule { iterations: 12, from: 0.8 * width, to: 0.2 * width };
@@ -158,7 +162,7 @@ impl<'a> Mover<'a> {
             let radius = radius.max(radii.least).min(radii.most);
             self.trial[i] = Ball { center, radius };
             self.refine(state, &schedule, &fans.few, &[i as u32], random);
-            let cost = self.cost(state, &[i as u32]);
+            let cost = self.rough_cost(state, &[i as u32], i);
             if cost < best.0 {
                 best = (cost, self.trial[i]);
             }
@@ -198,11 +202,23 @@ impl<'a> Mover<'a> {
 
     /// The cost of the trial less that of the clump, when only the balls `of` differ.
     pub(super) fn cost(&mut self, state: &State, of: &[u32]) -> f64 {
+        self.cost_by_rows(state, of, 1)
+    }
+
+    /// The same by some of the rows, fewer for a large ball `i`.
+    fn rough_cost(&mut self, state: &State, of: &[u32], i: usize) -> f64 {
+        let rows = 2.0 * state.ground.dexels.seen(&self.trial[i]).r;
+        self.cost_by_rows(state, of, ((rows / ROWS) as u32).clamp(1, 4))
+    }
+
+    fn cost_by_rows(&mut self, state: &State, of: &[u32], step: u32) -> f64 {
         let dexels = state.ground.dexels;
         for &j in of {
             self.seen[j as usize] = dexels.seen(&self.trial[j as usize]);
         }
         state.aim(of, &self.seen, &mut self.look);
-        state.cost(&self.look.exchange(&state.cover, &state.piles, dexels, of, &self.seen))
+        self.look.region.thin(step);
+        let change = self.look.exchange(&state.cover, &state.piles, dexels, of, &self.seen);
+        f64::from(step) * state.cost(&change)
     }
 }

@@ -10,17 +10,34 @@ use crate::error::{Result, filled};
 /// Lower end, upper end, number of the ball.
 pub(super) type Chord = (f32, f32, u32);
 
-/// A chord in a pile, and the place of the first one after it that reaches higher.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// A chord in a pile.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 struct Link {
-    chord: Chord,
-    next: u32,
+    lo: f32,
+    hi: f32,
+    /// The number of the ball, and how many chords farther on is one that reaches higher: all
+    /// between lie within this one.
+    tag: u32,
 }
 
-/// The chords of each column by their lower ends.
+/// Bits of a ball's number; the others of a tag are the way to the next chord, which may be cut
+/// short.
+const NUMBER: u32 = 17;
+const WAY: u32 = (1 << (32 - NUMBER)) - 1;
+
+/// Where a column's chords are, and how many may be there before all are moved.
+#[derive(Debug, Clone, Copy, Default)]
+struct Place {
+    start: u32,
+    count: u32,
+    room: u32,
+}
+
+/// The chords of each column by their lower ends, column after column.
 #[derive(Debug, Clone)]
 pub(super) struct Piles {
-    columns: Vec<Vec<Link>>,
+    places: Vec<Place>,
+    links: Vec<Link>,
 }
 
 /// Balls that change: numbers and new places, and a mark on each of their numbers.
@@ -56,23 +73,76 @@ impl Exchange {
     }
 }
 
+impl Link {
+    #[inline(always)]
+    fn ball(&self) -> u32 {
+        self.tag & ((1 << NUMBER) - 1)
+    }
+
+    #[inline(always)]
+    fn way(&self) -> usize {
+        (self.tag >> NUMBER) as usize
+    }
+
+    fn chord(&self) -> Chord {
+        (self.lo, self.hi, self.ball())
+    }
+}
+
 impl Piles {
     /// Of no ball.
     pub(super) fn new(dexels: &Dexels) -> Result<Piles> {
         let n = dexels.dims[0] * dexels.dims[1];
-        Ok(Piles { columns: filled("chords of columns", n, Vec::new())? })
+        Ok(Piles { places: filled("chords of columns", n, Place::default())?, links: Vec::new() })
+    }
+
+    /// Bytes that it holds.
+    pub(super) fn bytes(&self) -> u64 {
+        let places = self.places.len() * size_of::<Place>();
+        (places + self.links.capacity() * size_of::<Link>()) as u64
+    }
+
+    /// The chords of column `c`.
+    #[inline(always)]
+    fn column(&self, c: usize) -> &[Link] {
+        let Place { start, count, .. } = self.places[c];
+        &self.links[start as usize..(start + count) as usize]
     }
 
     /// All columns anew; `order`: the balls by their lower ends.
     pub(super) fn fill(&mut self, dexels: &Dexels, balls: &[Seen], order: &[u32]) {
         let mut row = Row::default();
         let across = dexels.dims[0];
-        for (b, columns) in self.columns.chunks_mut(across.max(1)).enumerate() {
+        self.links.clear();
+        for (b, places) in self.places.chunks_mut(across.max(1)).enumerate() {
             row.cut_many(b, [0, across], balls, order);
-            for (k, column) in columns.iter_mut().enumerate() {
-                pile(row.single(k), column);
+            for (k, place) in places.iter_mut().enumerate() {
+                let chords = row.single(k);
+                let (start, count) = (self.links.len() as u32, chords.len() as u32);
+                *place = Place { start, count, room: room(count) };
+                self.links.resize((start + place.room) as usize, Link::default());
+                pile(chords, &mut self.links[start as usize..]);
             }
         }
+    }
+
+    /// Puts other chords into a column.
+    fn put(&mut self, c: usize, chords: &[Chord]) {
+        let count = chords.len() as u32;
+        if count > self.places[c].room {
+            // All move: not often, as each has room for some more.
+            let before = std::mem::take(&mut self.links);
+            for (k, place) in self.places.iter_mut().enumerate() {
+                let old = place.start as usize..(place.start + place.count) as usize;
+                place.start = self.links.len() as u32;
+                place.room = room(if k == c { count } else { place.count });
+                self.links.extend_from_slice(&before[old]);
+                self.links.resize((place.start + place.room) as usize, Link::default());
+            }
+        }
+        let place = &mut self.places[c];
+        place.count = count;
+        pile(chords, &mut self.links[place.start as usize..]);
     }
 
     /// What the region's columns hold after the exchange, less `now`.
@@ -93,7 +163,7 @@ impl Piles {
             for k in 0..to - from {
                 let c = first + k;
                 let mut lengths = Union::new(dexels.column(c));
-                outer(&self.columns[c], marked, row.single(k), |lo, hi| lengths.add(lo, hi));
+                outer(self.column(c), marked, row.single(k), |lo, hi| lengths.add(lo, hi));
                 let (new, old) = (lengths.end(), now[c]);
                 part[0] += new[0] - old[0];
                 part[1] += new[1] - old[1];
@@ -119,9 +189,9 @@ impl Piles {
             row.cut(b, [from, to], seen, order);
             let first = b * dexels.dims[0] + from;
             for k in 0..to - from {
-                let column = &mut self.columns[first + k];
+                let column = self.column(first + k);
                 let inside = dexels.column(first + k);
-                count(column.iter().map(|l| l.chord), inside, -1.0, alone);
+                count(column.iter().map(Link::chord), inside, -1.0, alone);
                 merged.clear();
                 merge(column, marked, row.single(k), |chord| merged.push(chord));
                 // New chords carry their number among those exchanged, beyond all others.
@@ -130,7 +200,7 @@ impl Piles {
                         chord.2 = numbers[(chord.2 & !NEW) as usize];
                     }
                 }
-                pile(&merged, column);
+                self.put(first + k, &merged);
                 count(merged.iter().copied(), inside, 1.0, alone);
             }
         }
@@ -138,8 +208,8 @@ impl Piles {
 
     /// What each ball covers alone, of all columns.
     pub(super) fn alone(&self, dexels: &Dexels, alone: &mut [Lengths]) {
-        for (c, column) in self.columns.iter().enumerate() {
-            count(column.iter().map(|l| l.chord), dexels.column(c), 1.0, alone);
+        for c in 0..self.places.len() {
+            count(self.column(c).iter().map(Link::chord), dexels.column(c), 1.0, alone);
         }
     }
 }
@@ -147,28 +217,33 @@ impl Piles {
 /// The mark of a new chord's number.
 const NEW: u32 = 1 << 31;
 
+/// Chords of a column for which there is room when so many are there.
+fn room(count: u32) -> u32 {
+    count + count / 4 + u32::from(count > 0) * 3
+}
+
 /// Makes a pile of chords that come by their lower ends.
-fn pile(chords: &[Chord], out: &mut Vec<Link>) {
-    out.clear();
-    out.extend(chords.iter().map(|&chord| Link { chord, next: 0 }));
-    for at in (0..out.len()).rev() {
+fn pile(chords: &[Chord], out: &mut [Link]) {
+    let out = &mut out[..chords.len()];
+    for at in (0..chords.len()).rev() {
+        let (lo, hi, ball) = chords[at];
         // What does not reach higher than the one after it is passed over with that.
         let mut next = at + 1;
-        while let Some(link) = out.get(next).filter(|l| l.chord.1 <= out[at].chord.1) {
-            next = link.next as usize;
+        while let Some(link) = out.get(next).filter(|l| l.hi <= hi) {
+            next += link.way();
         }
-        out[at].next = next as u32;
+        out[at] = Link { lo, hi, tag: ball | ((next - at) as u32).min(WAY) << NUMBER };
     }
 }
 
 /// Calls `f` for the chords of `old` whose balls are not marked and for `new`, by lower ends.
 fn merge(old: &[Link], marked: &[bool], new: &[Chord], mut f: impl FnMut(Chord)) {
     let mut new = new.iter().map(|&(lo, hi, i)| (lo, hi, i | NEW)).peekable();
-    for link in old.iter().filter(|l| !marked[l.chord.2 as usize]) {
-        while let Some(first) = new.next_if(|c| c.0 < link.chord.0) {
+    for link in old.iter().filter(|l| !marked[l.ball() as usize]) {
+        while let Some(first) = new.next_if(|c| c.0 < link.lo) {
             f(first);
         }
-        f(link.chord);
+        f(link.chord());
     }
     new.for_each(f);
 }
@@ -177,17 +252,17 @@ fn merge(old: &[Link], marked: &[bool], new: &[Chord], mut f: impl FnMut(Chord))
 #[inline(always)]
 fn outer(old: &[Link], marked: &[bool], new: &[Chord], mut f: impl FnMut(f32, f32)) {
     let (mut at, mut fresh) = (0, 0);
-    while let Some(&Link { chord: (lo, hi, ball), next }) = old.get(at) {
-        if marked[ball as usize] {
+    while let Some(link) = old.get(at) {
+        if marked[link.ball() as usize] {
             at += 1;
             continue;
         }
-        while let Some(&(low, high, _)) = new.get(fresh).filter(|c| c.0 < lo) {
+        while let Some(&(low, high, _)) = new.get(fresh).filter(|c| c.0 < link.lo) {
             f(low, high);
             fresh += 1;
         }
-        f(lo, hi);
-        at = next as usize;
+        f(link.lo, link.hi);
+        at += link.way();
     }
     new[fresh..].iter().for_each(|&(lo, hi, _)| f(lo, hi));
 }
@@ -264,7 +339,7 @@ mod tests {
                 .collect();
             chords.sort_by(|x, y| x.0.total_cmp(&y.0));
             let (new, old) = chords.split_at(n as usize / 10);
-            let mut links = Vec::new();
+            let mut links = vec![Link::default(); old.len()];
             pile(old, &mut links);
             for part in [0.0, 0.05, 0.5] {
                 let marked: Vec<bool> = (0..n).map(|_| random.unit() < part).collect();

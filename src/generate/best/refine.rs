@@ -20,7 +20,7 @@ const MOMENTUM: f32 = 0.6;
 /// Damping of the normal equations, for each direction.
 const DAMPING: f64 = 0.003;
 /// Balls worked on together when threads share them.
-const CHUNK: usize = 64;
+const CHUNK: usize = 16;
 /// Of the mean radius: how far balls may move before lists are made anew.
 const SLACK: f32 = 0.3;
 

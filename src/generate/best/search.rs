@@ -19,7 +19,7 @@ const CHEAPEST: f64 = 0.85;
 const HELPED: u64 = 12;
 const HELPED_OF: usize = 16;
 /// From so many samples of an iteration on, threads share it.
-const SHARED: usize = 16_384;
+const SHARED: usize = 6144;
 
 /// A search with its random numbers and buffers.
 pub(super) struct Search<'s, 'a> {

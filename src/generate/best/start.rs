@@ -16,8 +16,8 @@ use crate::run::Run;
 /// balls, which are smaller, less.
 const WIDE: f32 = 0.03;
 const FEW: f32 = 30.0;
-/// From so many balls on, threads share them in an iteration.
-const SHARED: usize = 400;
+/// From so many samples of an iteration on, threads share it.
+const SHARED: usize = 6144;
 
 /// What starts have in common.
 pub(super) struct Start<'a, 'r> {
@@ -45,7 +45,7 @@ impl<'a> Start<'a, '_> {
         let directions = Directions::new(plan.directions);
         let mut refiner = Refiner::default();
         let leads = orbits.leads(*n);
-        let shared = (*n >= SHARED).then(|| run.pool());
+        let shared = (*n * plan.directions >= SHARED).then(|| run.pool());
         let wide = WIDE * ground.size * (FEW / (*n as f32).max(FEW)).cbrt();
         let first = plan.iterations / 2;
         let schedule = Schedule { iterations: first, from: wide, to: wide / 6.0 };

@@ -102,6 +102,11 @@ impl<'a> State<'a> {
         Ok(state)
     }
 
+    /// Bytes of its large arrays.
+    pub(super) fn bytes(&self) -> u64 {
+        self.cover.bytes() + self.piles.bytes()
+    }
+
     /// D by the columns.
     pub(super) fn mismatch(&self) -> f64 {
         self.lengths.mismatch(self.ground.dexels.target)

@@ -2,12 +2,14 @@
 
 use super::bounds;
 use super::dexels::Dexels;
+use super::effort::Plan;
 use super::field::Field;
 use super::limits::Plane;
 use crate::error::{Error, Result, filled};
 use crate::math::Vec3;
 use crate::run::Run;
 use crate::solid::Solid;
+use crate::solid::field::rough;
 
 /// The target of a search.
 pub(super) struct Target {
@@ -18,20 +20,18 @@ pub(super) struct Target {
 }
 
 impl Target {
-    /// With about so many columns that meet it.
-    pub(super) fn new(
-        solid: &Solid,
-        planes: &[Plane],
-        columns: usize,
-        run: &Run,
-    ) -> Result<Target> {
-        let mut field = Field::new(solid.grid(), solid.distance(run)?, run.pool())?;
+    /// With about as many columns that meet it, and cells, as planned.
+    pub(super) fn new(solid: &Solid, planes: &[Plane], plan: &Plan, run: &Run) -> Result<Target> {
+        let columns = plan.columns;
+        let (grid, values) = rough(solid, plan.cells, run)?;
+        let mut field = Field::new(&grid, &values, run.pool())?;
+        drop(values);
         let bounds = bounds(solid)?;
         if planes.is_empty() {
             let dexels = Dexels::new(solid, &bounds, columns, run.pool())?;
             return Ok(Target { field, dexels, volume: solid.unit_moments().volume });
         }
-        field.cut(solid.grid(), planes, run.pool());
+        field.cut(&grid, planes, run.pool());
         let (inside, [low, high]) = left(solid, planes)?;
         // The lattice needs an extent.
         let room = Vec3::repeat(1e-9);

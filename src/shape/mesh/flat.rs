@@ -31,6 +31,18 @@ fn height(f: &[u32; 3], points: &[Vec3]) -> (f64, usize) {
     if double_area > 0.0 { (double_area / edges[apex], apex) } else { (0.0, apex) }
 }
 
+/// Whether a face may be lower than `than`: no, when none is lower by a wide margin.
+pub fn may_be_low(faces: &[[u32; 3]], points: &[Vec3], than: f64) -> bool {
+    faces.iter().any(|f| {
+        let [a, b, c] = f.map(|v| points[v as usize]);
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let longest2 = ab.norm_squared().max(bc.norm_squared()).max(ca.norm_squared());
+        // Height times longest edge is twice the area.
+        let area2 = ab.cross(&ca).norm_squared();
+        area2.is_nan() || area2 <= 1.01 * than * than * longest2
+    })
+}
+
 /// Takes out faces whose corners lie on a line; how many. Where two of them are one place, they
 /// become one vertex. Else the apex of such a face lies on its longest edge; when one other face is
 /// there, that one is cut in two at the apex, so that nothing opens. Faces lower than `reach` that only hang on to

@@ -122,7 +122,7 @@ pub fn extents(
         sum.area += (b - a).cross(&(c - a)).norm();
     }
     let rims = rims(part, edges)?;
-    let mut union = Union::new(points.len())?;
+    let mut union = Union::new(if rims.is_empty() { 0 } else { points.len() })?;
     rims.iter().for_each(|r| union.join(r.from, r.to));
     // The middle of each opening: by part and by what hangs together.
     let mut order: Vec<((u32, u32), u32)> = reserve("openings", rims.len())?;
@@ -159,6 +159,12 @@ fn rims(part: &[u32], edges: &Edges) -> Result<Vec<Rim>> {
     let mut rims: Vec<Rim> = Vec::new();
     let mut here: Vec<(u32, i32)> = Vec::new();
     for e in edges.iter() {
+        if let [a, b] = e
+            && a.forward != b.forward
+            && part[a.face as usize] == part[b.face as usize]
+        {
+            continue;
+        }
         here.clear();
         for s in e {
             push("sides", &mut here, (part[s.face as usize], if s.forward { 1 } else { -1 }))?;

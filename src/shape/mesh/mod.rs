@@ -124,8 +124,9 @@ fn import(
     unit.extend(points.iter().map(|p| frame.to_unit(p).map(|x| x + 0.0)));
     let grain = Grain::of(&frame);
     run.check(0.2, "welding the mesh")?;
-    let kept = repair::close(faces, &unit, options.weld_tolerance, grain)?;
+    let mut kept = repair::close(faces, &unit, options.weld_tolerance, grain)?;
     note_repairs(&kept, options, &mut report);
+    let edges = kept.edges.take();
     let mut kept = kept.faces;
     if kept.is_empty() {
         return Err(Error::ZeroVolume(format!(
@@ -137,7 +138,10 @@ fn import(
     }
 
     run.check(0.4, "orienting the mesh")?;
-    let edges = Edges::of(&kept)?;
+    let edges = match edges {
+        Some(edges) => edges,
+        None => Edges::of(&kept)?,
+    };
     report.boundary_edges = edges.boundary;
     report.nonmanifold_edges = edges.nonmanifold;
     let orient::Agreement { mut turn, one_sided } = orient::agree(&kept, &unit, &edges)?;

@@ -1,6 +1,6 @@
 //! Orientation: neighbours made to agree.
 
-use super::topology::Edges;
+use super::topology::{Edges, Side};
 use crate::error::{Result, filled, reserve};
 use crate::math::Vec3;
 
@@ -16,6 +16,10 @@ pub struct Agreement {
 /// patch; of the two ways to agree within a patch, the one that turns less area.
 pub fn agree(faces: &[[u32; 3]], points: &[Vec3], edges: &Edges) -> Result<Agreement> {
     let n = faces.len();
+    let agrees = |e: &[Side]| !matches!(e, [a, b] if a.forward == b.forward);
+    if edges.iter().all(agrees) {
+        return Ok(Agreement { turn: filled("turns", n, false)?, one_sided: false });
+    }
     let mut neighbours: Vec<(u32, u32, bool)> = reserve("neighbours", n * 3)?;
     for e in edges.iter() {
         if let [a, b] = e {

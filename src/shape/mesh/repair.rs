@@ -17,6 +17,8 @@ const MOST_OF_EDGE: f64 = 0.25;
 pub struct Kept {
     /// Faces by welded vertices.
     pub faces: Vec<[u32; 3]>,
+    /// Their edges, where these are known.
+    pub edges: Option<Edges>,
     /// Faces without area.
     pub degenerate: u64,
     /// Faces present more than once.
@@ -40,7 +42,8 @@ pub fn close(faces: &[[u32; 3]], points: &[Vec3], tolerance: f64, grain: Grain) 
     let equal = weld::equal(points, &used)?;
     let exact = attempt(faces, &used, &equal, &equal)?;
     let mut best = None;
-    if used.iter().filter(|&&u| u).count() < faces.len() * 2 {
+    let welds = (0..points.len()).any(|i| used[i] && equal[i] as usize != i);
+    if welds && used.iter().filter(|&&u| u).count() < faces.len() * 2 {
         let mut as_is = reserve("vertices", points.len())?;
         as_is.extend(0..points.len() as u32);
         let first = attempt(faces, &used, &as_is, &equal)?;
@@ -50,10 +53,19 @@ pub fn close(faces: &[[u32; 3]], points: &[Vec3], tolerance: f64, grain: Grain) 
     }
     let mut best = best.unwrap_or(exact);
     let used_points = points.iter().zip(&used).filter(|p| *p.1).map(|p| p.0);
-    let reach = reach_of(&best.0.faces, points, tolerance * longest(&Bounds::of(used_points)))?;
+    let most = tolerance * longest(&Bounds::of(used_points));
+    let low = flat::may_be_low(&best.0.faces, points, most.max(grain.flat()));
+    if best.1 == 0 && !low {
+        return Ok(best.0);
+    }
+    let reach = reach_of(&best.0.faces, points, most)?;
     if best.1 > 0 && reach > 0.0 {
         let mut loose = filled("loose vertices", points.len(), false)?;
-        for e in Edges::of(&best.0.faces)?.iter().filter(|e| e.len() != 2) {
+        let edges = match &best.0.edges {
+            Some(edges) => edges,
+            None => &Edges::of(&best.0.faces)?,
+        };
+        for e in edges.iter().filter(|e| e.len() != 2) {
             loose[(e[0].key >> 32) as usize] = true;
             loose[e[0].key as u32 as usize] = true;
         }
@@ -75,6 +87,7 @@ pub fn close(faces: &[[u32; 3]], points: &[Vec3], tolerance: f64, grain: Grain) 
         }
     }
     let mut kept = best.0;
+    kept.edges = None;
     kept.degenerate += flat::drop_flat(&mut kept.faces, points, reach, grain.flat())?;
     Ok(kept)
 }
@@ -104,12 +117,17 @@ fn attempt(faces: &[[u32; 3]], used: &[bool], root: &[u32], exact: &[u32]) -> Re
     kept.faces.extend(faces.iter().map(|f| f.map(|v| root[v as usize])));
     kept.faces.retain(|f| f[0] != f[1] && f[1] != f[2] && f[2] != f[0]);
     kept.degenerate = (faces.len() - kept.faces.len()) as u64;
-    drop_duplicates(&mut kept)?;
+    let mut edges = Edges::of(&kept.faces)?;
+    if edges.has_twins(&kept.faces) {
+        drop_duplicates(&mut kept)?;
+        edges = Edges::of(&kept.faces)?;
+    }
     let is = |i: &usize| used[*i] && root[*i] as usize != *i;
     kept.welded = (0..used.len()).filter(is).count() as u64;
     let moved = |i: &usize| exact[*i] != exact[root[*i] as usize];
     kept.moved = (0..used.len()).filter(is).filter(moved).count() as u64;
-    let faulty = Edges::of(&kept.faces)?.faulty();
+    let faulty = edges.faulty();
+    kept.edges = Some(edges);
     Ok((kept, faulty))
 }
 

@@ -56,7 +56,7 @@ impl Union {
 }
 
 /// One face's side of an edge.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Side {
     /// One vertex in the upper half, the other in the lower half.
     pub key: u64,
@@ -67,6 +67,7 @@ pub struct Side {
 }
 
 /// All edges of a mesh.
+#[derive(Debug)]
 pub struct Edges {
     sides: Vec<Side>,
     /// Edges with one face.
@@ -80,14 +81,31 @@ pub struct Edges {
 impl Edges {
     /// The edges of `faces` (three different vertices each).
     pub fn of(faces: &[[u32; 3]]) -> Result<Edges> {
-        let mut sides: Vec<Side> = reserve("edges", faces.len() * 3)?;
+        let each = |f: &[u32; 3]| [(f[0], f[1]), (f[1], f[2]), (f[2], f[0])];
+        // By the lesser vertex first, counting; then few lie together.
+        let most = faces.iter().flatten().max().map_or(0, |&v| v as usize + 1);
+        let mut starts = filled("edges", most + 1, 0u32)?;
+        for (a, b) in faces.iter().flat_map(each) {
+            starts[a.min(b) as usize + 1] += 1;
+        }
+        for v in 0..most {
+            starts[v + 1] += starts[v];
+        }
+        let mut sides = filled("edges", faces.len() * 3, Side::default())?;
         for (i, f) in faces.iter().enumerate() {
-            for (a, b) in [(f[0], f[1]), (f[1], f[2]), (f[2], f[0])] {
+            for (a, b) in each(f) {
                 let key = (u64::from(a.min(b)) << 32) | u64::from(a.max(b));
-                sides.push(Side { key, face: i as u32, forward: a < b });
+                let next = &mut starts[a.min(b) as usize];
+                sides[*next as usize] = Side { key, face: i as u32, forward: a < b };
+                *next += 1;
             }
         }
-        sides.sort_unstable();
+        // Each start has become an end.
+        let mut first = 0;
+        for &end in &starts[..most] {
+            sides[first..end as usize].sort_unstable();
+            first = end as usize;
+        }
         let mut edges = Edges { sides, boundary: 0, nonmanifold: 0, misoriented: 0 };
         let (mut boundary, mut nonmanifold, mut misoriented) = (0, 0, 0);
         for e in edges.iter() {
@@ -119,6 +137,18 @@ impl Edges {
         self.boundary + self.nonmanifold
     }
 
+    /// Whether two of `faces`, whose edges these are, have the same three vertices.
+    pub fn has_twins(&self, faces: &[[u32; 3]]) -> bool {
+        let third = |s: &Side| {
+            let [a, b, c] = faces[s.face as usize];
+            a ^ b ^ c ^ (s.key >> 32) as u32 ^ s.key as u32
+        };
+        self.iter().any(|e| match e {
+            [a, b] => third(a) == third(b),
+            e => (1..e.len()).any(|k| e[..k].iter().any(|s| third(s) == third(&e[k]))),
+        })
+    }
+
     /// The faces at each edge.
     pub fn iter(&self) -> impl Iterator<Item = &[Side]> {
         self.sides.chunk_by(|a, b| a.key == b.key)
@@ -144,6 +174,10 @@ pub fn patches(faces: &[[u32; 3]], edges: &Edges) -> Result<Patches> {
         }
     }
     // A patch is open where it has an odd number of faces at an edge.
+    if edges.nonmanifold == 0 {
+        let (of, count) = union.numbered();
+        return Ok(Patches { of, count });
+    }
     let mut open = filled("open patches", faces.len(), false)?;
     let mut here: Vec<u32> = Vec::new();
     for e in edges.iter().filter(|e| e.len() > 2) {

@@ -11,17 +11,24 @@ use crate::math::Vec3;
 /// perpendicular, so that the sums seldom tie.
 pub fn equal(points: &[Vec3], used: &[bool]) -> Result<Vec<u32>> {
     let along = Vec3::new(0.531_730_291, 0.637_208_347, 0.557_913_113);
-    let mut order: Vec<(f64, u32)> = reserve("welding order", points.len())?;
-    order.extend((0..points.len()).filter(|&i| used[i]).map(|i| (points[i].dot(&along), i as u32)));
+    let mut order: Vec<(i64, u32)> = reserve("welding order", points.len())?;
+    let sum = |i: usize| {
+        // In the order of `total_cmp`.
+        let bits = points[i].dot(&along).to_bits() as i64;
+        bits ^ (((bits >> 63) as u64) >> 1) as i64
+    };
+    order.extend((0..points.len()).filter(|&i| used[i]).map(|i| (sum(i), i as u32)));
+    order.sort_unstable();
     let key = |i: u32| points[i as usize];
-    order.sort_unstable_by(|a, b| {
-        let (p, q) = (key(a.1), key(b.1));
-        a.0.total_cmp(&b.0)
-            .then_with(|| p.x.total_cmp(&q.x))
-            .then_with(|| p.y.total_cmp(&q.y))
-            .then_with(|| p.z.total_cmp(&q.z))
-            .then_with(|| a.1.cmp(&b.1))
-    });
+    for tied in order.chunk_by_mut(|a, b| a.0 == b.0).filter(|t| t.len() > 1) {
+        tied.sort_unstable_by(|a, b| {
+            let (p, q) = (key(a.1), key(b.1));
+            p.x.total_cmp(&q.x)
+                .then_with(|| p.y.total_cmp(&q.y))
+                .then_with(|| p.z.total_cmp(&q.z))
+                .then_with(|| a.1.cmp(&b.1))
+        });
+    }
     let mut root = reserve("welded vertices", points.len())?;
     root.extend(0..points.len() as u32);
     for group in order.chunk_by(|a, b| key(a.1) == key(b.1)) {

@@ -112,9 +112,11 @@ impl Lattice {
     }
 
     /// Number of columns whose lattice coordinate `k` is less than `x`.
+    #[inline]
     pub(crate) fn below(&self, k: usize, x: f64) -> usize {
         let n = self.dims[k];
-        let guess = ((x - self.origin[k]) / self.step[k] - 0.5).ceil();
+        // Rounded up, but for whole numbers, which the steps below set right.
+        let guess = (x - self.origin[k]) / self.step[k] + 0.5;
         let mut i = if guess > 0.0 { (guess as usize).min(n) } else { 0 };
         while i > 0 && self.at(k, i - 1) >= x {
             i -= 1;
