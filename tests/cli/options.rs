@@ -32,6 +32,8 @@ fn options_without_effect_are_refused() {
     fails(&["info", mask, "--labels", "--density", "1"], 2);
     fails(&["info", mask, "--raw", "4x4x4", "--axes", "xyz"], 2);
     fails(&["clump", mesh, "--plane-tolerance", "0.1", "-o", "c.csv"], 2);
+    fails(&["clump", mesh, "--columns", "64", "--quality", "none"], 2);
+    fails(&["clump", mesh, "-n", "1", "--cells", "8", "--columns", "7"], 1);
     let said = fails(&["info", "sample:box", "--labels"], 2);
     assert!(said.contains("built-in"), "{said}");
     let json = ["clump", "sample:box", "-n", "1", "--cells", "8", "--json", "--format"];

@@ -43,6 +43,9 @@ pub struct Args {
     /// Quality to measure: overlap (D, coverage, overshoot), full (also the surface), none
     #[arg(long, value_enum, default_value_t = Wanted::Full)]
     quality: Wanted,
+    /// Columns along each of the two sampled axes of the quality figures, 8 to 8192 [default: 256]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>)]
+    columns: Option<usize>,
     /// Count the spheres that one plane touches within this length; may be given more than once
     #[arg(long, value_name = "LENGTH", value_parser = positive)]
     plane_tolerance: Vec<f64>,
@@ -156,6 +159,11 @@ pub fn run(args: &Args) -> Done {
             "--plane-tolerance has no effect here: only JSON holds the counts".into(),
         ));
     }
+    if args.columns.is_some() && args.quality == Wanted::None {
+        return Err(Fail::Usage(
+            "--columns has no effect here: --quality none measures none".into(),
+        ));
+    }
     let options = args.generate_options();
     // The library would take the progress bar for one who can cancel.
     if options.spheres == 0
@@ -241,7 +249,7 @@ impl Args {
                 overlap: self.quality != Wanted::None,
                 surface: self.quality == Wanted::Full,
                 plane_tolerances: self.plane_tolerance.clone(),
-                ..QualityOptions::default()
+                columns: self.columns.unwrap_or(QualityOptions::default().columns),
             }),
         }
     }
