@@ -607,7 +607,7 @@ typedef struct morula_clump_options {
   /// surface. Default 50.
   uint32_t cells_inside;
   /// How far a sphere may reach beyond the surface, in the caller's unit, for
-  /// MORULA_METHOD_EUCLIDEAN and the methods after it. Default 0.
+  /// MORULA_METHOD_INSCRIBED, MORULA_METHOD_EUCLIDEAN and the methods after it. Default 0.
   double tolerance;
   /// MORULA_METHOD_EUCLIDEAN: by which part of its radius a sphere is shrunk before it is taken
   /// from the body; 0: the spheres do not overlap. Default 0.9.

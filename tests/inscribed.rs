@@ -83,6 +83,31 @@ fn no_sphere_reaches_beyond_a_triangle() {
 }
 
 #[test]
+fn spheres_reach_as_far_as_they_may() {
+    for name in ["stone", "box", "torus"] {
+        let arrays = arrays(name, 24);
+        let solid = solid(&arrays, 40);
+        let size = solid.moments().volume.cbrt();
+        let mut before = 0.0;
+        for part in [0.0, 0.005, 0.02, 0.05] {
+            let tolerance = part * size;
+            let options = GenerateOptions { tolerance, ..asked(20, Effort::Normal) };
+            let clump = generate(&solid, &options, &Run::serial()).unwrap();
+            assert_eq!(clump.spheres.len(), 20, "{name}");
+            let beyond = beyond(&arrays, &clump.spheres);
+            assert!((beyond - tolerance).abs() < 1e-9 * size, "{name}: {beyond:e} {tolerance:e}");
+            let coverage = clump.quality.unwrap().coverage;
+            assert!(coverage > before, "{name} {part}: {coverage} {before}");
+            before = coverage;
+        }
+        assert!(before > 0.93, "{name}: {before}");
+    }
+    let solid = solid(&arrays("box", 8), 16);
+    let far = GenerateOptions { tolerance: 1e3, ..asked(5, Effort::Draft) };
+    assert!(matches!(generate(&solid, &far, &Run::serial()), Err(Error::InvalidArgument(_))));
+}
+
+#[test]
 fn one_sphere_is_the_largest_that_fits() {
     for name in ["sphere", "box", "ellipsoid"] {
         let arrays = arrays(name, 48);

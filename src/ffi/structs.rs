@@ -154,7 +154,7 @@ pub struct morula_clump_options {
     /// surface. Default 50.
     pub cells_inside: u32,
     /// How far a sphere may reach beyond the surface, in the caller's unit, for
-    /// MORULA_METHOD_EUCLIDEAN and the methods after it. Default 0.
+    /// MORULA_METHOD_INSCRIBED, MORULA_METHOD_EUCLIDEAN and the methods after it. Default 0.
     pub tolerance: f64,
     /// MORULA_METHOD_EUCLIDEAN: by which part of its radius a sphere is shrunk before it is taken
     /// from the body; 0: the spheres do not overlap. Default 0.9.

@@ -59,7 +59,7 @@ impl Method {
     /// Whether it reads `tolerance`.
     fn tolerates(self) -> bool {
         use Method::*;
-        matches!(self, Euclidean | FerellecMcDowell | Favier | UniformGrid)
+        matches!(self, Inscribed | Euclidean | FerellecMcDowell | Favier | UniformGrid)
     }
 }
 
@@ -86,8 +86,8 @@ pub struct GenerateOptions {
     pub coverage: f64,
     /// What [`Method::Cover`] covers, and with what.
     pub cover: CoverOptions,
-    /// How far a sphere may reach beyond the surface, in the caller's unit: read by the
-    /// baselines of the field ([`Method::Euclidean`] and those after it).
+    /// How far a sphere may reach beyond the surface, in the caller's unit: read by
+    /// [`Method::Inscribed`] and the baselines of the field ([`Method::Euclidean`] and those after it).
     pub tolerance: f64,
     /// [`Method::Euclidean`]: by which part of its radius a ball is shrunk before it is taken from
     /// the body; 0: the balls do not overlap.
@@ -197,8 +197,8 @@ fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
     }
     if o.tolerance != 0.0 && !o.method.tolerates() {
         return Err(Error::InvalidArgument(
-            "tolerance is an option of the methods euclidean, ferellec-mcdowell, favier and \
-             uniform-grid"
+            "tolerance is an option of the methods inscribed, euclidean, ferellec-mcdowell, favier \
+             and uniform-grid"
                 .into(),
         ));
     }

@@ -96,8 +96,8 @@ struct Making {
     /// Let no sphere reach beyond the true surface
     #[arg(long)]
     confine: bool,
-    /// How far spheres of the methods euclidean, ferellec-mcdowell, favier and uniform-grid may
-    /// reach beyond the surface, in your length unit
+    /// How far spheres of the methods inscribed, euclidean, ferellec-mcdowell, favier and
+    /// uniform-grid may reach beyond the surface, in your length unit
     #[arg(long, value_name = "LENGTH", default_value_t = 0.0, value_parser = not_negative)]
     tolerance: f64,
     /// By which part of its radius method euclidean shrinks a sphere before it is taken from the

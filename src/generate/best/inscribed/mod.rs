@@ -14,7 +14,7 @@ use super::dexels::Dexels;
 use super::field::Field;
 use super::random::Random;
 use crate::clump::{Clump, Stopped};
-use crate::error::{Error, Result, filled, reserve};
+use crate::error::{Error, Result, figure, filled, reserve};
 use crate::generate::select::choose;
 use crate::math::Sphere;
 use crate::run::Run;
@@ -35,6 +35,12 @@ pub(in crate::generate) fn inscribed(
     run: &Run,
 ) -> Result<Clump> {
     let n = check(options)?;
+    if options.tolerance > solid.frame().scale {
+        return Err(Error::InvalidArgument(format!(
+            "tolerance is {}, more than the size of the body",
+            figure(options.tolerance)
+        )));
+    }
     run.check(0.0, "measuring the distances of cells")?;
     let field = Field::new(solid.grid(), solid.distance(run)?, run.pool())?;
     let plan = effort::plan(options.effort, n);
@@ -47,7 +53,8 @@ pub(in crate::generate) fn inscribed(
     let size = (solid.unit_moments().volume / 0.2).cbrt();
     let scale = solid.frame().scale;
     let least = (LEAST * size).max(options.min_radius / scale);
-    let depth = Depth { field: &field, surface, tolerance: 0.0, least, size: size as f32 };
+    let tolerance = options.tolerance / scale;
+    let depth = Depth { field: &field, surface, tolerance, least, size: size as f32 };
     let mut random = Random::new(run.seed(), 0);
 
     run.check(0.1, "looking for medial balls")?;
