@@ -202,6 +202,11 @@ fn check(o: &GenerateOptions, run: &Run) -> Result<()> {
                 .into(),
         ));
     }
+    if o.effort != Effort::default() && !matches!(o.method, Method::Best | Method::Inscribed) {
+        return Err(Error::InvalidArgument(
+            "effort is an option of the methods best and inscribed".into(),
+        ));
+    }
     o.best.check(o.min_radius)?;
     if o.method != Method::Best && o.best != BestOptions::default() {
         return Err(Error::InvalidArgument(
@@ -261,5 +266,8 @@ mod tests {
         }
         let o = GenerateOptions { radius_offset: f64::NAN, ..GenerateOptions::default() };
         assert!(refused(&o, &Run::serial()));
+        let o = GenerateOptions { effort: Effort::Draft, ..GenerateOptions::default() };
+        assert!(!refused(&o, &Run::serial()));
+        assert!(refused(&GenerateOptions { method: Method::Mss, ..o }, &Run::serial()));
     }
 }
