@@ -176,3 +176,98 @@ fn no_sphere_protrudes_farther_than_allowed() {
         assert!((before / free - 1.0).abs() < 0.03, "{name}: {before} {free}");
     }
 }
+
+#[test]
+fn volumes_are_equal_for_little_mismatch() {
+    let fine = QualityOptions { columns: 1024, surface: false, ..QualityOptions::default() };
+    for name in ["box", "torus", "stone"] {
+        let solid = solid(name);
+        let free = overlap(&solid, &make(&solid, 12, &BestOptions::default()));
+        for overshoot_weight in [1.0, 5.0] {
+            let best =
+                BestOptions { equal_volume: true, overshoot_weight, ..BestOptions::default() };
+            let clump = make(&solid, 12, &best);
+            assert_eq!(clump.note, "");
+            let q = quality(&solid, &clump.spheres, &fine, &Run::serial()).unwrap();
+            assert!(q.volume_error.abs() <= 1e-4, "{name}: {}", q.volume_error);
+            let more = if overshoot_weight > 1.0 { 1.3 } else { 1.1 };
+            assert!(q.mismatch <= more * free.mismatch, "{name}: {} {}", q.mismatch, free.mismatch);
+        }
+        assert!(free.volume_error.abs() > 1e-3, "{name}: {}", free.volume_error);
+    }
+    // What half-spaces leave of a unit cube about the origin.
+    let solid = solid("box");
+    let half_spaces = vec![half(0.0, 0.0, 1.0, 0.1), half(-3.0, 0.0, 0.0, 0.9)];
+    let best = BestOptions { equal_volume: true, half_spaces, ..BestOptions::default() };
+    let clump = make(&solid, 40, &best);
+    let q = quality(&solid, &clump.spheres, &fine, &Run::serial()).unwrap();
+    assert!((q.union_volume / 0.48 - 1.0).abs() < 2e-4, "{} {}", q.union_volume, clump.note);
+}
+
+#[test]
+fn volumes_that_limits_do_not_allow_are_reported() {
+    let solid = solid("torus");
+    let best = BestOptions { equal_volume: true, max_radius: 0.2, ..BestOptions::default() };
+    let clump = make(&solid, 20, &best);
+    assert!(clump.spheres.iter().all(|s| s.radius <= 0.2));
+    let share = 1.0 + overlap(&solid, &clump).volume_error;
+    assert!(share < 0.9 && clump.note.contains("times the volume of the target"), "{}", clump.note);
+    let said: f64 = clump.note.split(' ').find_map(|w| w.parse().ok()).unwrap();
+    assert!((said - share).abs() < 1e-3, "{share} {}", clump.note);
+}
+
+#[test]
+fn all_limits_hold_together_at_any_size_and_place() {
+    let (vertices, faces) = Primitive::from_name("stone").unwrap().mesh(32).unwrap();
+    let run = Run::serial();
+    for (scale, at) in [(1.0, 0.0), (1e-9, 0.0), (1e6, 0.0), (1.0, 1e7)] {
+        let vertices: Vec<[f64; 3]> = vertices.iter().map(|p| p.map(|x| scale * x + at)).collect();
+        let shape = Shape::from_mesh(&vertices, &faces, &ImportOptions::default(), &run).unwrap();
+        let solid = Solid::new(&shape, &SolidOptions::default(), &run).unwrap();
+        let normals = [[1.0, 0.3, -0.2], [-2.0, 1.0, 0.5]].map(morula::math::Vec3::from);
+        let half_spaces: Vec<HalfSpace> = normals
+            .iter()
+            .map(|n| HalfSpace {
+                normal: *n,
+                offset: n.dot(&morula::math::Vec3::repeat(at)) + 0.2 * scale * n.norm(),
+            })
+            .collect();
+        let best = BestOptions {
+            overshoot_weight: 2.0,
+            max_protrusion: 0.02 * scale,
+            max_radius: 0.25 * scale,
+            half_spaces: half_spaces.clone(),
+            equal_volume: true,
+            ..BestOptions::default()
+        };
+        let min_radius = 0.05 * scale;
+        let options = GenerateOptions { min_radius, ..ask(25, Effort::Normal, best.clone()) };
+        let clump = generate(&solid, &options, &run).unwrap();
+        assert_eq!(clump.spheres.len(), 25, "{}", clump.note);
+        for s in &clump.spheres {
+            assert!(s.radius >= min_radius && s.radius <= best.max_radius, "{scale} {at}: {s:?}");
+            assert!(half_spaces.iter().all(|h| beyond(s, h) <= 4.0), "{scale} {at}: {s:?}");
+        }
+        assert!(reach(&solid, &clump) <= best.max_protrusion, "{scale} {at}");
+        let error = overlap(&solid, &clump).volume_error;
+        // A part of the stone is cut off.
+        assert!(error < -0.05 && error > -0.7, "{scale} {at}: {error} {}", clump.note);
+    }
+}
+
+#[test]
+fn spheres_without_room_are_left_out_and_said_so() {
+    let solid = solid("torus");
+    // A tube of radius 0.4: no larger sphere keeps within it and a little more.
+    let ask = |min_radius: f64, max_protrusion: f64| {
+        let best = BestOptions { max_protrusion, ..BestOptions::default() };
+        let options = GenerateOptions { min_radius, ..ask(20, Effort::Draft, best) };
+        generate(&solid, &options, &Run::serial())
+    };
+    let Err(Error::NoSpheres(text)) = ask(0.45, 0.01) else { panic!("there is no room") };
+    assert!(text.contains("0.45"), "{text}");
+    let clump = ask(0.395, 0.01).unwrap();
+    assert!(clump.spheres.iter().all(|s| s.radius >= 0.395));
+    assert!(reach(&solid, &clump) <= 0.01);
+    assert!(clump.spheres.len() == 20 || clump.note.contains("of 20 spheres"), "{}", clump.note);
+}

@@ -4,6 +4,7 @@
 use super::chords::{Row, lengths, single, whole};
 use super::dexels::{Dexels, Seen};
 use super::piles::{Exchange, Piles};
+use super::smooth::Buffers;
 use crate::error::{Result, filled};
 
 /// Lengths of columns in units of the lattice.
@@ -64,6 +65,8 @@ pub(super) struct Look {
     fresh: Vec<[f32; 2]>,
     row: Row,
     order: Vec<u32>,
+    /// For the distance between the surfaces.
+    pub smooth: Buffers,
 }
 
 impl Region {

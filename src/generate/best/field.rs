@@ -59,6 +59,9 @@ impl Field {
     /// The field of what half-spaces leave: inside, the distance to the nearer of surface and
     /// planes; outside at most that.
     pub(super) fn cut(&mut self, grid: &Grid, planes: &[Plane], pool: &Pool) {
+        if planes.is_empty() {
+            return;
+        }
         let [nx, ny, _] = grid.dims;
         pool.chunks_mut(&mut self.values, nx, |row, out| {
             for (i, value) in out.iter_mut().enumerate() {

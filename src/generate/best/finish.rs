@@ -3,30 +3,37 @@
 use super::connected;
 use super::limits::Exact;
 use super::symmetry::Orbits;
+use super::volume;
 use crate::error::{Error, Result, figure, reserve};
 use crate::generate::ball::Ball;
 use crate::math::{Sphere, UnitFrame};
+use crate::run::Pool;
 
 /// The balls as spheres in the caller's frame, those left out that no place near theirs has room
-/// for, and what is to be said about that.
+/// for, and what is to be said about that. `volume`: that of the union, unit frame, if it matters.
 pub(super) fn finish(
     balls: &[Ball],
     orbits: &Orbits,
     frame: &UnitFrame,
     exact: &Exact,
+    (volume, pool): (Option<f64>, &Pool),
 ) -> Result<(Vec<Sphere>, String)> {
     let n = balls.len();
     let mut leads = orbits.leads(n);
     let radius = |i: u32| balls[i as usize].radius;
     leads.sort_by(|&i, &j| radius(j).total_cmp(&radius(i)));
     let mut spheres = reserve("spheres", n)?;
+    // How many are images of each other, one after the other.
+    let mut sizes = reserve("orbits", leads.len())?;
     for i in leads {
         let sphere = balls[i as usize].sphere();
+        let before = spheres.len();
         if exact.none() {
             spheres.extend(orbits.images(i, sphere, frame));
         } else if let Some(held) = exact.hold(&frame.sphere_to_input(&sphere)) {
             spheres.extend(together(exact, orbits.images_of(i, held, frame)));
         }
+        sizes.push(spheres.len() - before);
     }
     let least = figure(exact.least());
     if spheres.is_empty() {
@@ -34,15 +41,18 @@ pub(super) fn finish(
             "none of {n} spheres has room for a radius of {least} within the limits"
         )));
     }
-    spheres.sort_by(|x, y| y.radius.total_cmp(&x.radius));
-    let note = if spheres.len() < n {
-        format!(
-            "{} of {n} spheres have room for a radius of {least} within the limits",
-            spheres.len()
-        )
-    } else {
-        String::new()
+    let mut note = match volume {
+        Some(volume) => volume::fit(&mut spheres, &sizes, frame, exact, volume, pool)?,
+        None => String::new(),
     };
+    spheres.sort_by(|x, y| y.radius.total_cmp(&x.radius));
+    let kept = spheres.len();
+    if kept < n {
+        let and = if note.is_empty() { "" } else { "; " };
+        note = format!(
+            "{kept} of {n} spheres have room for a radius of {least} within the limits{and}{note}"
+        );
+    }
     Ok((spheres, note))
 }
 

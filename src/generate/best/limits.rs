@@ -95,6 +95,13 @@ impl Limits {
         most
     }
 
+    /// By how much a ball may grow.
+    pub(super) fn room(&self, field: &Field, ball: &Ball) -> f32 {
+        let mut room = f32::MAX;
+        self.each(field, &mut { *ball }, |_, _, e| room = room.min(-e));
+        room.max(0.0)
+    }
+
     /// Puts a ball that reaches too far where it does not: by equal parts the centre moves and the
     /// radius falls.
     pub(super) fn hold(&self, field: &Field, radii: &Radii, ball: &mut Ball) {
@@ -241,6 +248,11 @@ impl<'a> Exact<'a> {
             lower(below(most, signed) * self.frame.scale, &way);
         }
         room
+    }
+
+    /// The greatest radius about `center`.
+    pub(super) fn greatest(&self, center: &Vec3) -> f64 {
+        self.room(center).0
     }
 
     /// A sphere within the limits, moved where its place has too little room; none where that does

@@ -27,12 +27,14 @@ pub(super) mod random;
 mod refine;
 mod search;
 mod seeds;
+mod smooth;
 mod start;
 mod state;
 mod symmetry;
 mod target;
 #[cfg(test)]
 mod test_bodies;
+mod volume;
 
 pub use effort::Effort;
 pub use options::{BestOptions, HalfSpace, Symmetry};
@@ -48,6 +50,7 @@ use cover::Look;
 use limits::{Exact, Limits};
 use refine::Radii;
 use search::{BATCH, Search};
+use smooth::Smooth;
 use start::Start;
 use state::Ground;
 use target::Target;
@@ -56,6 +59,9 @@ use target::Target;
 const MOST: usize = 100_000;
 /// Least radius, as a part of the body's size.
 const LEAST: f64 = 0.002;
+
+/// Least directions and iterations of a refinement to a volume.
+const LAST: usize = 50;
 
 /// Makes a clump.
 fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
@@ -102,8 +108,13 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         }
         stopped == Stopped::Spheres
     };
+    let smooth = if asked.smoothness > 0.0 {
+        Some(Smooth::new(asked.smoothness, solid.grid(), &ground, (n, volume), run.seed())?)
+    } else {
+        None
+    };
     let start = Start { ground, plan, n, run };
-    let mut state = start.state(sites.as_ref(), &mut look, &mut go)?;
+    let mut state = start.state(sites.as_ref(), smooth, &mut look, &mut go)?;
     state.join(&mut look);
     run.count(|c| {
         let held = solid.bytes() + field.bytes() + dexels.bytes() + state.bytes();
@@ -125,8 +136,16 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     if stopped == Stopped::Spheres && plan.polish[1] > 0 {
         search.polish(plan.polish);
     }
+    let mut whole = None;
+    if asked.equal_volume {
+        whole = Some(target::volume(solid, &planes, run)?);
+        if stopped == Stopped::Spheres {
+            volume::swell(&mut search, plan.polish.map(|count| count.max(LAST)));
+        }
+    }
     let d = state.mismatch();
-    let (spheres, mut short) = finish::finish(&state.balls, &state.orbits, frame, &exact)?;
+    let volume = (whole, run.pool());
+    let (spheres, mut short) = finish::finish(&state.balls, &state.orbits, frame, &exact, volume)?;
     if n < wanted {
         short = [symmetry::note(&sites, wanted, n), short].concat();
         stopped = if stopped == Stopped::Spheres { Stopped::Exhausted } else { stopped };
@@ -158,7 +177,7 @@ fn check(o: &GenerateOptions) -> Result<usize> {
         return only_mss("confine");
     }
     // What is made of the demands.
-    let made = BestOptions { equal_volume: false, smoothness: 0.0, ..o.best.clone() };
+    let made = BestOptions { smoothness: 0.0, ..o.best.clone() };
     if o.best != made {
         return Err(Error::Unsupported("these demands on clumps of best are not made yet".into()));
     }

@@ -144,7 +144,7 @@ impl<'a> Mover<'a> {
         of: &[u32],
         random: &mut Random,
     ) {
-        let task = state.ground.task(directions, state.weights(), &self.orbits);
+        let task = state.ground.task(directions, state.weights(), &self.orbits, state.pull());
         self.refiner.refine(&task, schedule, &mut self.trial, of, random, None, &mut || true);
     }
 
@@ -216,9 +216,6 @@ impl<'a> Mover<'a> {
         for &j in of {
             self.seen[j as usize] = dexels.seen(&self.trial[j as usize]);
         }
-        state.aim(of, &self.seen, &mut self.look);
-        self.look.region.thin(step);
-        let change = self.look.exchange(&state.cover, &state.piles, dexels, of, &self.seen);
-        f64::from(step) * state.cost(&change)
+        state.price(of, &self.seen, step, &mut self.look)
     }
 }

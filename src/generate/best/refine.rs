@@ -8,6 +8,7 @@ use super::field::Field;
 use super::limits::Limits;
 use super::near::Near;
 use super::random::Random;
+use super::smooth::{Drawn, Pull};
 use super::symmetry::Orbits;
 use crate::generate::ball::Ball;
 use crate::run::Pool;
@@ -48,6 +49,8 @@ pub(super) struct Task<'a> {
     pub radii: Radii,
     pub limits: &'a Limits,
     pub orbits: &'a Orbits<'a>,
+    /// What draws balls beside the volumes.
+    pub pull: Option<Pull<'a>>,
 }
 
 /// Buffers.
@@ -55,6 +58,7 @@ pub(super) struct Task<'a> {
 pub(super) struct Refiner {
     near: Near,
     scratch: Scratch,
+    drawn: Drawn,
     turned: Vec<[f32x8; 3]>,
     /// Change of centre and radius of each ball in the last iteration.
     speed: Vec<[f32; 4]>,
@@ -77,29 +81,41 @@ impl Refiner {
         pool: Option<&Pool>,
         go: &mut dyn FnMut() -> bool,
     ) {
-        let Refiner { near, scratch, turned, speed, step, area } = self;
+        let Refiner { near, scratch, drawn, turned, speed, step, area } = self;
         speed.clear();
         speed.resize(of.len(), [0.0; 4]);
         step.clear();
         step.resize(of.len(), [0.0; 5]);
         let sum: f64 = of.iter().map(|&i| f64::from(balls[i as usize].radius)).sum();
         let slack = SLACK * (sum / of.len().max(1) as f64) as f32;
+        if let Some(pull) = &task.pull {
+            drawn.begin(pull, balls, of, task.orbits);
+        }
         let mut moved = f32::MAX;
         let shrink = schedule.to / schedule.from;
         for k in 0..schedule.iterations {
             let done = k as f32 / (schedule.iterations.max(2) - 1) as f32;
             let width = schedule.from * shrink.powf(done);
-            if moved >= 0.5 * slack {
+            let anew = moved >= 0.5 * slack;
+            if anew {
                 near.make(balls, of, slack);
                 moved = 0.0;
             }
             task.directions.turned(&random.rotation(), turned);
+            if task.pull.is_some() {
+                drawn.draw(balls, of, near, anew);
+            }
             let sampler =
                 Sampler { field: task.field, directions: turned, weights: task.weights, width };
             let one = |k: usize, scratch: &mut Scratch| {
                 let others = near.of(k).iter().map(|&j| &balls[j as usize]);
                 let ball = &balls[of[k] as usize];
                 let mut normal = sampler.normal(ball, others, scratch);
+                if let Some(pull) = &task.pull {
+                    let sphere = 4.0 * std::f64::consts::PI * f64::from(ball.radius).powi(2);
+                    let area = sphere / task.directions.len() as f64;
+                    drawn.add(pull, k, width, area, &mut normal);
+                }
                 let solve = |n: &Normal| solve(n, DAMPING * task.directions.len() as f64);
                 let step = if task.limits.none() {
                     solve(&normal)

@@ -4,10 +4,12 @@
 
 use super::cover::Look;
 use super::directions::Directions;
+use super::exposed::Weights;
 use super::moves::{Fans, Moved, Mover};
 use super::random::Random;
 use super::refine::{Refiner, Schedule};
 use super::state::State;
+use crate::generate::ball::Ball;
 use crate::run::Pool;
 use std::sync::{Mutex, PoisonError};
 
@@ -113,22 +115,57 @@ impl<'s, 'a> Search<'s, 'a> {
     /// Refines all balls, with Huber's widths at the first and last iteration in units of the
     /// state's; the clump stays as it was where that does not help.
     fn settle(&mut self, iterations: usize, [from, to]: [f32; 2], directions: &Directions) {
-        let state = &mut *self.state;
-        let all = state.orbits.leads(state.balls.len());
-        let before = (state.goal(), state.balls.clone(), state.parts);
-        let task = state.ground.task(directions, state.weights(), &state.orbits);
+        let before = (self.state.goal(), self.state.parts);
+        let weights = self.state.weights();
+        let balls = self.refined(iterations, [from, to], directions, weights);
+        let old = std::mem::replace(&mut self.state.balls, balls);
+        self.state.renew(&mut self.look);
+        self.state.join(&mut self.look);
+        if self.state.goal() >= before.0 || self.state.parts > before.1 {
+            self.state.parts = before.1;
+            self.put(old);
+        } else {
+            self.state.measure_width(self.refiner.area);
+        }
+    }
+
+    /// Puts other balls in the place of all.
+    pub(super) fn put(&mut self, balls: Vec<Ball>) {
+        self.state.balls = balls;
+        self.state.renew(&mut self.look);
+    }
+
+    /// The same, and joins them where they must hang together.
+    pub(super) fn put_joined(&mut self, balls: Vec<Ball>) {
+        self.put(balls);
+        self.state.join(&mut self.look);
+    }
+
+    /// All balls after a refinement.
+    fn refined(
+        &mut self,
+        iterations: usize,
+        [from, to]: [f32; 2],
+        directions: &Directions,
+        weights: Weights,
+    ) -> Vec<Ball> {
+        let state = &*self.state;
+        let mut balls = state.balls.clone();
+        let all = state.orbits.leads(balls.len());
+        let task = state.ground.task(directions, weights, &state.orbits, state.pull());
         let schedule = Schedule { iterations, from: from * state.width, to: to * state.width };
         let shared = (all.len() * directions.len() >= SHARED).then_some(self.pool);
-        let balls = &mut state.balls;
         let random = &mut self.random;
-        self.refiner.refine(&task, &schedule, balls, &all, random, shared, &mut || true);
-        state.renew(&mut self.look);
-        state.join(&mut self.look);
-        if state.goal() >= before.0 || state.parts > before.2 {
-            (state.balls, state.parts) = (before.1, before.2);
-            state.renew(&mut self.look);
-        } else {
-            state.measure_width(self.refiner.area);
-        }
+        self.refiner.refine(&task, &schedule, &mut balls, &all, random, shared, &mut || true);
+        balls
+    }
+
+    /// All balls after a last refinement with this many directions and iterations, in which
+    /// volume costs so much more.
+    pub(super) fn swollen(&mut self, [directions, iterations]: [usize; 2], cost: f64) -> Vec<Ball> {
+        let mut weights = self.state.weights();
+        weights.inside -= cost as f32;
+        weights.outside += cost as f32;
+        self.refined(iterations, [0.8, 0.04], &Directions::new(directions), weights)
     }
 }

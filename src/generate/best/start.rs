@@ -7,6 +7,7 @@ use super::exposed::Weights;
 use super::random::Random;
 use super::refine::{Refiner, Schedule};
 use super::seeds;
+use super::smooth::Smooth;
 use super::state::{Ground, State};
 use super::symmetry::{self, Orbits, Sites};
 use crate::error::Result;
@@ -32,6 +33,7 @@ impl<'a> Start<'a, '_> {
     pub(super) fn state(
         &self,
         sites: Option<&'a Sites>,
+        smooth: Option<Smooth>,
         look: &mut Look,
         go: &mut dyn FnMut() -> bool,
     ) -> Result<State<'a>> {
@@ -49,19 +51,20 @@ impl<'a> Start<'a, '_> {
         let wide = WIDE * ground.size * (FEW / (*n as f32).max(FEW)).cbrt();
         let first = plan.iterations / 2;
         let schedule = Schedule { iterations: first, from: wide, to: wide / 6.0 };
-        let free = ground.task(&directions, Weights::at(0.0, ground.overshoot), &orbits);
+        let free = ground.task(&directions, Weights::at(0.0, ground.overshoot), &orbits, None);
         refiner.refine(&free, &schedule, &mut balls, &leads, &mut random, shared, go);
-        let mut state = State::new(*ground, balls, orbits, plan.moves > 0, look)?;
+        let mut state = State::new(*ground, balls, orbits, plan.moves > 0, smooth, look)?;
         state.measure_width(refiner.area);
         if go() {
-            let task = ground.task(&directions, state.weights(), &state.orbits);
+            let task = ground.task(&directions, state.weights(), &state.orbits, state.pull());
             let schedule = Schedule {
                 iterations: plan.iterations - first,
                 from: 2.0 * state.width,
                 to: 0.3 * state.width,
             };
-            let balls = &mut state.balls;
-            refiner.refine(&task, &schedule, balls, &leads, &mut random, shared, go);
+            let mut balls = state.balls.clone();
+            refiner.refine(&task, &schedule, &mut balls, &leads, &mut random, shared, go);
+            state.balls = balls;
             state.renew(look);
             state.measure_width(refiner.area);
         }

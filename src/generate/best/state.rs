@@ -12,6 +12,7 @@ use super::near::Near;
 use super::piles::Piles;
 use super::random::Random;
 use super::refine::{Radii, Task};
+use super::smooth::{Pull, Smooth};
 use super::symmetry::Orbits;
 use crate::error::{Result, filled, reserve};
 use crate::generate::ball::Ball;
@@ -38,9 +39,10 @@ impl Ground<'_> {
         directions: &'t Directions,
         weights: Weights,
         orbits: &'t Orbits<'t>,
+        pull: Option<Pull<'t>>,
     ) -> Task<'t> {
         let Ground { field, limits, radii, .. } = *self;
-        Task { field, directions, weights, radii, limits, orbits }
+        Task { field, directions, weights, radii, limits, orbits, pull }
     }
 }
 
@@ -53,6 +55,8 @@ pub(super) struct State<'a> {
     pub cover: Cover,
     pub piles: Piles,
     lengths: Lengths,
+    /// The distance between the surfaces, where it weighs something.
+    smooth: Option<Smooth>,
     /// What each ball covers that no other does.
     alone: Vec<Lengths>,
     /// Moves of each ball since it last changed.
@@ -78,6 +82,7 @@ impl<'a> State<'a> {
         balls: Vec<Ball>,
         orbits: Orbits<'a>,
         moves: bool,
+        smooth: Option<Smooth>,
         look: &mut Look,
     ) -> Result<State<'a>> {
         let n = balls.len();
@@ -89,6 +94,7 @@ impl<'a> State<'a> {
             cover: Cover::new(ground.dexels)?,
             piles: Piles::new(ground.dexels)?,
             lengths: Lengths::default(),
+            smooth,
             alone: filled("what balls are worth", n, Lengths::default())?,
             tried: filled("moves of balls", n, 0)?,
             rows: reserve("rows of columns", ground.dexels.dims[1])?,
@@ -112,28 +118,78 @@ impl<'a> State<'a> {
         self.lengths.mismatch(self.ground.dexels.target)
     }
 
-    /// What is made least: D with the weight of what is beyond the target.
-    pub(super) fn goal(&self) -> f64 {
+    /// D with the weight of what is beyond the target.
+    fn weighed(&self) -> f64 {
         self.lengths.weighed(self.ground.overshoot).mismatch(self.ground.dexels.target)
+    }
+
+    /// What is made least: D with the weight of what is beyond the target, and the charge for the
+    /// distance between the surfaces.
+    pub(super) fn goal(&self) -> f64 {
+        self.weighed() + self.smooth.as_ref().map_or(0.0, |s| s.now())
+    }
+
+    /// Union and target: what a cost is divided by to be a change of the goal.
+    fn both(&self, lengths: &Lengths) -> f64 {
+        lengths.weighed(self.ground.overshoot).union + self.ground.dexels.target
+    }
+
+    /// By how much more than the target's the clump's volume is, of the target's.
+    pub(super) fn excess(&self) -> f64 {
+        self.lengths.union / self.ground.dexels.target - 1.0
     }
 
     /// The weights for which a step down is a step down in the goal.
     pub(super) fn weights(&self) -> Weights {
-        Weights::at(self.goal(), self.ground.overshoot)
+        Weights::at(self.weighed(), self.ground.overshoot)
     }
 
-    /// What a change of the lengths costs: less than 0 exactly where the goal falls.
-    pub(super) fn cost(&self, change: &Lengths) -> f64 {
-        change.weighed(self.ground.overshoot).cost(self.goal())
+    /// What draws balls beside the volumes.
+    pub(super) fn pull(&self) -> Option<Pull<'_>> {
+        let volumes = self.both(&self.lengths) * self.ground.dexels.cell();
+        self.smooth.as_ref().map(|s| s.pull(volumes))
+    }
+
+    /// What a change of the lengths costs: less than 0 exactly where the weighed D falls.
+    fn cost(&self, change: &Lengths) -> f64 {
+        change.weighed(self.ground.overshoot).cost(self.weighed())
+    }
+
+    /// What it costs to put the balls `of` to the places that `seen` has for them: less than 0
+    /// exactly where the goal falls.
+    /// `step`: of the rows only one in so many is looked at.
+    pub(super) fn price(&self, of: &[u32], seen: &[Seen], step: u32, look: &mut Look) -> f64 {
+        self.change(of, seen, step, look).0
+    }
+
+    /// The same, with the changes of the lengths and of the distances.
+    fn change(&self, of: &[u32], seen: &[Seen], step: u32, look: &mut Look) -> (f64, Lengths, f64) {
+        let dexels = self.ground.dexels;
+        self.aim(of, seen, look);
+        look.region.thin(step);
+        let lengths = look.exchange(&self.cover, &self.piles, dexels, of, seen);
+        let cost = f64::from(step) * self.cost(&lengths);
+        let Some(smooth) = &self.smooth else { return (cost, lengths, 0.0) };
+        let distances = smooth.change(of, seen, &mut look.smooth);
+        let both = self.both(&self.lengths.plus(&lengths));
+        (cost + both * smooth.rise(distances), lengths, distances)
+    }
+
+    /// How much more the goal is than the weighed D.
+    fn more(&self) -> f64 {
+        match &self.smooth {
+            Some(smooth) => 1.0 + smooth.now() / self.weighed().max(1e-6),
+            None => 1.0,
+        }
     }
 
     /// All that is missing and too much, in units of the cost.
     pub(super) fn left(&self) -> f64 {
-        self.left_of(&self.lengths.weighed(self.ground.overshoot))
+        self.left_of(&self.lengths.weighed(self.ground.overshoot)) * self.more()
     }
 
     fn left_of(&self, lengths: &Lengths) -> f64 {
-        let d = self.goal();
+        let d = self.weighed();
         lengths.cost(d) + (1.0 + d) * self.ground.dexels.target
     }
 
@@ -147,13 +203,14 @@ impl<'a> State<'a> {
 
     /// By how much the cost would rise without ball `i`; of an orbit, the mean.
     pub(super) fn worth(&self, i: usize) -> f64 {
-        match self.orbits.orbit(i as u32) {
-            None => -self.cost(&self.alone[i]),
+        let cost = match self.orbits.orbit(i as u32) {
+            None => self.cost(&self.alone[i]),
             Some(o) => {
                 let sum: f64 = o.balls.iter().map(|&j| self.cost(&self.alone[j as usize])).sum();
-                -sum / o.balls.len() as f64
+                sum / o.balls.len() as f64
             }
-        }
+        };
+        -cost * self.more()
     }
 
     /// Counts everything anew from the balls.
@@ -163,6 +220,9 @@ impl<'a> State<'a> {
         self.seen.clear();
         self.seen.extend(self.balls.iter().map(|b| dexels.seen(b)));
         self.lengths = self.cover.whole(dexels, &self.seen, look);
+        if let Some(smooth) = &mut self.smooth {
+            smooth.whole(&self.seen);
+        }
         if !self.books {
             return;
         }
@@ -180,6 +240,11 @@ impl<'a> State<'a> {
         if self.ground.connected {
             self.parts = connected::join(self, look);
         }
+    }
+
+    /// How many parts there are now, where the clump must hang together; else 1.
+    pub(super) fn pieces(&mut self) -> usize {
+        if self.ground.connected { connected::parts(&self.balls, &mut self.near).1 } else { 1 }
     }
 
     /// Whether the clump would have more parts with `balls` at the places of those `of`.
@@ -208,10 +273,12 @@ impl<'a> State<'a> {
         for (&j, ball) in of.iter().zip(balls) {
             seen[j as usize] = dexels.seen(ball);
         }
-        self.aim(of, &seen, look);
-        let change = look.exchange(&self.cover, &self.piles, dexels, of, &seen);
-        if self.cost(&change) >= 0.0 || self.falls_apart(of, balls) {
+        let (cost, change, distances) = self.change(of, &seen, 1, look);
+        if cost >= 0.0 || self.falls_apart(of, balls) {
             return false;
+        }
+        if let Some(smooth) = &mut self.smooth {
+            smooth.take(distances, &look.smooth);
         }
         look.take(&mut self.cover, &mut self.piles, dexels, &mut self.alone);
         for b in look.region.rows() {
@@ -228,7 +295,7 @@ impl<'a> State<'a> {
     }
 
     /// Looks at the columns that the balls `of` touch now or in `seen`.
-    pub(super) fn aim(&self, of: &[u32], seen: &[Seen], look: &mut Look) {
+    fn aim(&self, of: &[u32], seen: &[Seen], look: &mut Look) {
         let both = [self.seen.as_slice(), seen];
         let changed = both.into_iter().flat_map(|all| of.iter().map(move |&j| all[j as usize]));
         look.region.of(self.ground.dexels, changed);

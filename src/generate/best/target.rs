@@ -11,6 +11,11 @@ use crate::run::Run;
 use crate::solid::Solid;
 use crate::solid::field::rough;
 
+/// Relative error of a volume that is exact enough.
+const EXACT: f64 = 1e-6;
+/// Columns for a volume that is to be exact.
+const FINE: usize = 200_000;
+
 /// The target of a search.
 pub(super) struct Target {
     pub field: Field,
@@ -22,28 +27,46 @@ pub(super) struct Target {
 impl Target {
     /// With about as many columns that meet it, and cells, as planned.
     pub(super) fn new(solid: &Solid, planes: &[Plane], plan: &Plan, run: &Run) -> Result<Target> {
-        let columns = plan.columns;
         let (grid, values) = rough(solid, plan.cells, run)?;
         let mut field = Field::new(&grid, &values, run.pool())?;
         drop(values);
-        let bounds = bounds(solid)?;
-        if planes.is_empty() {
-            let dexels = Dexels::new(solid, &bounds, columns, run.pool())?;
-            return Ok(Target { field, dexels, volume: solid.unit_moments().volume });
-        }
         field.cut(&grid, planes, run.pool());
-        let (inside, [low, high]) = left(solid, planes)?;
-        // The lattice needs an extent.
-        let room = Vec3::repeat(1e-9);
-        let bounds = [low.sup(&bounds[0]).inf(&(bounds[1] - room)), high.inf(&bounds[1])];
-        let mut dexels = Dexels::among(solid, &inside, &bounds, columns, run.pool())?;
-        dexels.clip(planes);
-        if dexels.target <= 0.0 {
-            return Err(nothing());
-        }
-        let volume = dexels.target * dexels.cell();
+        let dexels = columns(solid, planes, plan.columns, run)?;
+        let volume = if planes.is_empty() {
+            solid.unit_moments().volume
+        } else {
+            dexels.target * dexels.cell()
+        };
         Ok(Target { field, dexels, volume })
     }
+}
+
+/// About so many columns that meet the target.
+fn columns(solid: &Solid, planes: &[Plane], wanted: usize, run: &Run) -> Result<Dexels> {
+    let bounds = bounds(solid)?;
+    if planes.is_empty() {
+        return Dexels::new(solid, &bounds, wanted, run.pool());
+    }
+    let (inside, [low, high]) = left(solid, planes)?;
+    // The lattice needs an extent.
+    let room = Vec3::repeat(1e-9);
+    let bounds = [low.sup(&bounds[0]).inf(&(bounds[1] - room)), high.inf(&bounds[1])];
+    let mut dexels = Dexels::among(solid, &inside, &bounds, wanted, run.pool())?;
+    dexels.clip(planes);
+    if dexels.target <= 0.0 {
+        return Err(nothing());
+    }
+    Ok(dexels)
+}
+
+/// The volume of the target as exactly as it is known, unit frame.
+pub(super) fn volume(solid: &Solid, planes: &[Plane], run: &Run) -> Result<f64> {
+    let moments = solid.unit_moments();
+    if planes.is_empty() && moments.relative_error < EXACT {
+        return Ok(moments.volume);
+    }
+    let dexels = columns(solid, planes, FINE, run)?;
+    Ok(dexels.target * dexels.cell())
 }
 
 fn nothing() -> Error {

@@ -1,0 +1,352 @@
+//! How far the surface of the target is from that of the clump, as a second measure beside D.
+//!
+//! Points spread evenly over the target's surface; the distance of a point p from the clump with
+//! balls (c, r) is g = min |p − c| − r. Outside the clump that is exact, inside it is the depth
+//! in one ball. A step makes least the squares of what each ball is nearest to, as in fits of
+//! spheres to surfaces, beside what the step makes least anyway.
+
+use super::dexels::{Dexels, Seen};
+use super::exposed::Normal;
+use super::field::Field;
+use super::near::Near;
+use super::random::Random;
+use super::state::Ground;
+use super::symmetry::Orbits;
+use crate::error::{Result, reserve};
+use crate::generate::ball::Ball;
+use crate::solid::Grid;
+
+/// Points for each ball, and at least.
+const EACH: usize = 30;
+const LEAST: usize = 3000;
+/// Half the width of the layer from which points move to the surface, in cells.
+const LAYER: f32 = 0.75;
+/// How far from the surface a point may stay, in cells.
+const OFF: f32 = 0.05;
+/// Of the mean radius: how much nearer to balls that move a point may come.
+const SLACK: f32 = 0.5;
+
+/// The stream of random numbers for points.
+const POINTS: u64 = 1 << 40;
+
+/// A distance and the number of the ball that has it.
+type Nearest = (f32, u32);
+
+/// Points of the target's surface.
+pub(super) fn points(
+    field: &Field,
+    grid: &Grid,
+    balls: usize,
+    random: &mut Random,
+) -> Result<Vec<[f32; 3]>> {
+    let wanted = LEAST.max(balls.saturating_mul(EACH));
+    let layer = LAYER * field.cell();
+    let reach = 0.5 * grid.spacing.norm() as f32;
+    let [nx, ny, _] = grid.dims;
+    let mut cells: Vec<[f32; 3]> = Vec::new();
+    for i in 0..grid.len() {
+        let center = grid.center(i % nx, i / nx % ny, i / nx / ny);
+        let center = [0, 1, 2].map(|a| center[a] as f32);
+        if field.one(center).abs() < layer + reach {
+            crate::error::push("cells about the surface", &mut cells, center)?;
+        }
+    }
+    // One place in each of many parts of the cells, evenly; a third of them or more are in the
+    // layer, and of these evenly as many as are wanted stay.
+    let tries = wanted.saturating_mul(3);
+    let mut points = reserve("points of the surface", tries)?;
+    for k in 0..tries {
+        let at = (k as f64 + random.unit()) / tries as f64 * cells.len() as f64;
+        let Some(cell) = cells.get(at as usize) else { continue };
+        let p = [0, 1, 2].map(|a| cell[a] + (grid.spacing[a] * random.between(-0.5, 0.5)) as f32);
+        if field.one(p).abs() < layer
+            && let Some(p) = onto(field, p)
+        {
+            points.push(p);
+        }
+    }
+    let found = points.len();
+    if found > wanted {
+        (0..wanted).for_each(|k| points[k] = points[k * found / wanted]);
+        points.truncate(wanted);
+    }
+    Ok(points)
+}
+
+/// The point of the surface below or above `p`.
+fn onto(field: &Field, mut p: [f32; 3]) -> Option<[f32; 3]> {
+    for _ in 0..4 {
+        let (f, slope) = (field.one(p), field.slope(p));
+        let steep = slope.iter().map(|s| s * s).sum::<f32>().max(0.1);
+        p = [0, 1, 2].map(|a| p[a] - f * slope[a] / steep);
+    }
+    (field.one(p).abs() < OFF * field.cell()).then_some(p)
+}
+
+/// The measure of a clump.
+pub(super) struct Smooth {
+    weight: f64,
+    /// Unit frame.
+    points: Vec<[f32; 3]>,
+    /// The same along the columns.
+    seen: Vec<[f32; 3]>,
+    /// In units of the columns.
+    nearest: Vec<Nearest>,
+    /// Sum of their squares.
+    sum: f64,
+    /// Three over the target's equivalent diameter.
+    scale: f64,
+    /// Distance between columns.
+    step: f64,
+}
+
+/// What a change needs.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Buffers {
+    marked: Vec<bool>,
+    fresh: Vec<(u32, Nearest)>,
+}
+
+impl Smooth {
+    /// For so many balls, of which there is none yet. `volume`: the target's, unit frame.
+    pub(super) fn new(
+        weight: f64,
+        grid: &Grid,
+        ground: &Ground,
+        (balls, volume): (usize, f64),
+        seed: u64,
+    ) -> Result<Smooth> {
+        let points = points(ground.field, grid, balls, &mut Random::new(seed, POINTS))?;
+        Smooth::of(weight, points, ground.dexels, volume)
+    }
+
+    fn of(weight: f64, points: Vec<[f32; 3]>, dexels: &Dexels, volume: f64) -> Result<Smooth> {
+        let mut seen = reserve("points along columns", points.len())?;
+        seen.extend(points.iter().map(|&center| {
+            let s = dexels.seen(&Ball { center, radius: 0.0 });
+            [s.u, s.v, s.t]
+        }));
+        let nearest = reserve("distances of points", points.len())?;
+        let scale = 3.0 / (6.0 * volume / std::f64::consts::PI).cbrt();
+        let step = dexels.cell().cbrt();
+        Ok(Smooth { weight, points, seen, nearest, sum: 0.0, scale, step })
+    }
+
+    /// All points anew.
+    pub(super) fn whole(&mut self, balls: &[Seen]) {
+        let Smooth { seen, nearest, sum, .. } = self;
+        nearest.clear();
+        nearest.extend(seen.iter().map(|p| {
+            let mut best = (f32::MAX, 0);
+            for (j, s) in (0u32..).zip(balls) {
+                nearer(p, s, j, &mut best);
+            }
+            best
+        }));
+        *sum = nearest.iter().map(|n| square(n.0)).sum();
+    }
+
+    /// By how much the sum of squares would change with the balls `of` at the places that `balls`
+    /// has for them.
+    pub(super) fn change(&self, of: &[u32], balls: &[Seen], buffers: &mut Buffers) -> f64 {
+        let Buffers { marked, fresh } = buffers;
+        marked.clear();
+        marked.resize(balls.len(), false);
+        of.iter().for_each(|&j| marked[j as usize] = true);
+        fresh.clear();
+        let mut change = 0.0;
+        for (k, (p, now)) in (0u32..).zip(self.seen.iter().zip(&self.nearest)) {
+            let mut best = *now;
+            if marked[now.1 as usize] {
+                best = (f32::MAX, 0);
+                for (j, s) in (0u32..).zip(balls) {
+                    nearer(p, s, j, &mut best);
+                }
+            } else {
+                for &j in of {
+                    nearer(p, &balls[j as usize], j, &mut best);
+                }
+            }
+            if best != *now {
+                change += square(best.0) - square(now.0);
+                fresh.push((k, best));
+            }
+        }
+        change
+    }
+
+    /// Takes over what the last [`Smooth::change`] found.
+    pub(super) fn take(&mut self, change: f64, buffers: &Buffers) {
+        for &(k, nearest) in &buffers.fresh {
+            self.nearest[k as usize] = nearest;
+        }
+        self.sum += change;
+    }
+
+    /// What a clump is charged when the sum of squares is changed so: the weight times three root
+    /// mean squares over the target's equivalent diameter.
+    fn charge(&self, change: f64) -> f64 {
+        let mean = (self.sum + change).max(0.0) / self.points.len().max(1) as f64;
+        self.weight * self.scale * self.step * mean.sqrt()
+    }
+
+    /// The charge now.
+    pub(super) fn now(&self) -> f64 {
+        self.charge(0.0)
+    }
+
+    /// By how much the charge rises with a change.
+    pub(super) fn rise(&self, change: f64) -> f64 {
+        self.charge(change) - self.charge(0.0)
+    }
+
+    /// What draws balls; `volumes`: of union and target together, unit frame.
+    pub(super) fn pull(&self, volumes: f64) -> Pull<'_> {
+        let count = self.points.len().max(1) as f64;
+        let mean = self.step * (self.sum.max(0.0) / count).sqrt();
+        let weight = self.weight * self.scale * volumes / (count * mean.max(1e-9));
+        Pull { points: &self.points, nearest: &self.nearest, step: self.step as f32, weight }
+    }
+}
+
+fn square(x: f32) -> f64 {
+    f64::from(x) * f64::from(x)
+}
+
+/// Lowers `best` to the distance of a point from ball `j`.
+#[inline(always)]
+fn nearer([u, v, t]: &[f32; 3], s: &Seen, j: u32, best: &mut Nearest) {
+    let (u, v, t) = (u - s.u, v - s.v, t - s.t);
+    let apart = u * u + v * v + t * t;
+    let reach = best.0 + s.r;
+    if reach > 0.0 && apart < reach * reach {
+        *best = (apart.sqrt() - s.r, j);
+    }
+}
+
+/// The same in the unit frame.
+#[inline(always)]
+fn closer(p: &[f32; 3], b: &Ball, j: u32, best: &mut Nearest) {
+    let [x, y, z] = [0, 1, 2].map(|a| p[a] - b.center[a]);
+    let apart = x * x + y * y + z * z;
+    let reach = best.0 + b.radius;
+    if reach > 0.0 && apart < reach * reach {
+        *best = (apart.sqrt() - b.radius, j);
+    }
+}
+
+/// The points of the surface as they draw the balls that are nearest to them.
+#[derive(Clone, Copy)]
+pub(super) struct Pull<'a> {
+    points: &'a [[f32; 3]],
+    nearest: &'a [Nearest],
+    step: f32,
+    /// Of a point's half square, in units of volume.
+    weight: f64,
+}
+
+/// The points that may draw some balls, and what they add to the normal equations.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Drawn {
+    /// Points, with their distance from all balls that stay.
+    local: Vec<([f32; 3], f32)>,
+    /// The ball that each was nearest to.
+    last: Vec<u32>,
+    /// Balls that move: those that lead, and their images.
+    moving: Vec<u32>,
+    /// Of each ball its place among those that lead and move, or what else it does.
+    slots: Vec<u32>,
+    sums: Vec<Normal>,
+}
+
+/// No ball, or one that stays; and one that follows its image.
+const NONE: u32 = u32::MAX;
+const FOLLOWS: u32 = u32::MAX - 1;
+
+impl Drawn {
+    /// Finds the points for the balls `of` that are about to move, and their images with them.
+    pub(super) fn begin(&mut self, pull: &Pull, balls: &[Ball], of: &[u32], orbits: &Orbits) {
+        let Drawn { local, last, moving, slots, .. } = self;
+        local.clear();
+        slots.clear();
+        slots.resize(balls.len(), NONE);
+        moving.clear();
+        moving.extend(orbits.balls(of));
+        moving.iter().for_each(|&j| slots[j as usize] = FOLLOWS);
+        for (k, &j) in (0u32..).zip(of) {
+            slots[j as usize] = k;
+        }
+        let sum: f32 = of.iter().map(|&j| balls[j as usize].radius).sum();
+        let slack = SLACK * sum / of.len().max(1) as f32;
+        for (p, &(g, i)) in pull.points.iter().zip(pull.nearest) {
+            let mut rest = (f32::MAX, 0);
+            if moving.len() < balls.len() {
+                if slots[i as usize] == NONE {
+                    rest.0 = g * pull.step;
+                    let mut near = (rest.0 + slack, NONE);
+                    moving.iter().for_each(|&j| closer(p, &balls[j as usize], j, &mut near));
+                    if near.1 == NONE {
+                        continue;
+                    }
+                } else {
+                    let stay = (0u32..).zip(balls).filter(|(j, _)| slots[*j as usize] == NONE);
+                    stay.for_each(|(j, b)| closer(p, b, j, &mut rest));
+                }
+            }
+            local.push((*p, rest.0));
+        }
+        last.clear();
+        last.resize(local.len(), NONE);
+    }
+
+    /// Sums up what the points add for each ball. `near`: which balls meet each that moves;
+    /// `anew`: those lists have changed.
+    pub(super) fn draw(&mut self, balls: &[Ball], of: &[u32], near: &Near, anew: bool) {
+        let Drawn { local, last, moving, slots, sums } = self;
+        sums.clear();
+        sums.resize(of.len(), Normal::default());
+        for ((p, rest), last) in local.iter().zip(last) {
+            let mut best = (f32::MAX, NONE);
+            // The lists are of those that lead.
+            let slot = if *last == NONE { NONE } else { slots[*last as usize] };
+            if slot >= FOLLOWS || anew {
+                moving.iter().for_each(|&j| closer(p, &balls[j as usize], j, &mut best));
+            } else {
+                closer(p, &balls[*last as usize], *last, &mut best);
+                for &j in near.of(slot as usize) {
+                    if slots[j as usize] != NONE {
+                        closer(p, &balls[j as usize], j, &mut best);
+                    }
+                }
+            }
+            *last = best.1;
+            let (g, j) = best;
+            if j == NONE || g >= *rest || slots[j as usize] >= FOLLOWS {
+                continue;
+            }
+            let k = slots[j as usize];
+            let ball = &balls[of[k as usize] as usize];
+            let apart = f64::from((g + ball.radius).max(1e-6));
+            let way = [0, 1, 2].map(|a| f64::from(p[a] - ball.center[a]) / apart);
+            let row = [way[0], way[1], way[2], 1.0];
+            let sum = &mut sums[k as usize];
+            let mut upper = sum.m.iter_mut();
+            for i in 0..4 {
+                row[i..].iter().zip(&mut upper).for_each(|(x, m)| *m += row[i] * x);
+                sum.b[i] += f64::from(g) * row[i];
+            }
+        }
+    }
+
+    /// Adds to the equations of the ball that came `k`th, whose directions stand for `area` each.
+    pub(super) fn add(&self, pull: &Pull, k: usize, width: f32, area: f64, normal: &mut Normal) {
+        let Some(sum) = self.sums.get(k) else { return };
+        let weight = pull.weight * f64::from(width) / area;
+        normal.m.iter_mut().zip(&sum.m).for_each(|(m, s)| *m += weight * s);
+        normal.b.iter_mut().zip(&sum.b).for_each(|(b, s)| *b += weight * s);
+    }
+}
+
+#[cfg(test)]
+#[path = "smooth_tests.rs"]
+mod tests;
