@@ -21,7 +21,7 @@ pub fn text(out: &mut dyn Write, about: &About, rows: &[Row]) -> std::io::Result
     let [x, y, z] = about.cells;
     writeln!(
         out,
-        "{}: {x} x {y} x {z} cells, read in {:.0} ms, grid and distances for all methods in {:.0} ms",
+        "{}: {x} x {y} x {z} cells, read in {:.0} ms, grid and distances made in {:.0} ms",
         about.input,
         1e3 * about.read,
         1e3 * about.grid
