@@ -125,7 +125,10 @@ impl Default for GenerateOptions {
 pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     check(options, run)?;
     let mut clump = run.time(Stage::Generate, || match options.method {
-        Method::Mss => mss::mss(solid, options, run),
+        Method::Mss => {
+            solid.find_inside(run)?;
+            mss::mss(solid, options, run)
+        }
         Method::Best => best::fewest::make(solid, options, run),
         Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
         Method::Inscribed => best::inscribed::inscribed(solid, options, run),

@@ -37,7 +37,25 @@ pub fn inside(body: &Body, grid: &Grid, padding: usize, limit: u64, run: &Run) -
     covered(body, grid, padding, k, limit, run)
 }
 
-/// The same by `k` × `k` columns a cell.
+/// Whether some of the middle layers' cells are in.
+pub(super) fn shows(
+    body: &Body,
+    grid: &Grid,
+    padding: usize,
+    limit: u64,
+    run: &Run,
+) -> Result<bool> {
+    const LAYERS: usize = 2;
+    let [nx, ny, nz] = grid.dims;
+    if nz < LAYERS + 2 * padding {
+        return Ok(false);
+    }
+    let mut some = Grid { dims: [nx, ny, LAYERS + 2 * padding], ..*grid };
+    some.origin.z += (nz / 2 - padding - LAYERS / 2) as f64 * grid.spacing.z;
+    Ok(covered(body, &some, padding, COLUMNS, limit, run)?.contains(&1))
+}
+
+/// As [`inside`], by `k` × `k` columns a cell.
 fn covered(
     body: &Body,
     grid: &Grid,

@@ -140,7 +140,10 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
             ));
         }
         let (grid, inside) = match &*shape.body {
-            Body::Voxels(v) => of_voxels(v, options)?,
+            Body::Voxels(v) => {
+                let (grid, inside) = of_voxels(v, options)?;
+                (grid, Some(inside))
+            }
             Body::Mesh(m) => of_mesh(shape, m, &moments, options, &mut notes, run)?,
         };
         let cells = grid.len() as u64;
@@ -152,7 +155,8 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
             body: Arc::clone(&shape.body),
             frame: shape.frame,
             grid,
-            inside,
+            padding: options.padding,
+            inside: inside.map(OnceLock::from).unwrap_or_default(),
             distance: OnceLock::new(),
             surface: OnceLock::new(),
             moments,
@@ -199,7 +203,12 @@ fn of_voxels(v: &Voxels, options: &SolidOptions) -> Result<(Grid, Vec<u8>)> {
     Ok((grid, inside))
 }
 
-/// Cubic cells about the middle of the box, as fine as asked for, or finer where the shape is thin.
+/// With this much memory for closed meshes of fewer faces than that, the cells inside can be found
+/// later: columns need some hundred bytes a face at most.
+const AMPLE: (u64, usize) = (1 << 28, 1 << 20);
+
+/// Cubic cells about the middle of the box, as fine as asked for, or finer where the shape is thin;
+/// which are inside, where that cannot wait.
 fn of_mesh(
     shape: &Shape,
     mesh: &Mesh,
@@ -207,7 +216,7 @@ fn of_mesh(
     options: &SolidOptions,
     notes: &mut Vec<String>,
     run: &Run,
-) -> Result<(Grid, Vec<u8>)> {
+) -> Result<(Grid, Option<Vec<u8>>)> {
     let Some((lo, hi)) = moments::bounds(mesh) else {
         return Err(Error::Empty("the mesh has no face".into()));
     };
@@ -263,8 +272,13 @@ fn of_mesh(
         let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
         let grid = Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half };
         let limit = options.memory_limit;
-        let inside = coverage::inside(&shape.body, &grid, options.padding, limit, run)?;
-        Ok((inside.contains(&1), grid, inside))
+        let (body, padding) = (&shape.body, options.padding);
+        let ample = limit >= AMPLE.0 && mesh.faces.len() <= AMPLE.1;
+        if mesh.clean && ample && coverage::shows(body, &grid, padding, limit, run)? {
+            return Ok((true, grid, None));
+        }
+        let inside = coverage::inside(body, &grid, padding, limit, run)?;
+        Ok((inside.contains(&1), grid, Some(inside)))
     };
     let (mut shown, mut grid, mut inside) = made(h)?;
     if !shown && may_refine && least < h && fits(least, MOST_NEEDED) {

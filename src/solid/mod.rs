@@ -46,7 +46,8 @@ pub struct Solid {
     body: Arc<Body>,
     frame: UnitFrame,
     grid: Grid,
-    inside: Vec<u8>,
+    padding: usize,
+    inside: OnceLock<Vec<u8>>,
     distance: OnceLock<Vec<f32>>,
     surface: OnceLock<Surface>,
     moments: Moments,
@@ -71,8 +72,23 @@ impl Solid {
     }
 
     /// 1 for cells of which more than half is covered (Buchele et al. 2026, eq 5), else 0; x fastest.
+    ///
+    /// Of a closed mesh they are found when first asked for.
     pub fn inside(&self) -> &[u8] {
-        &self.inside
+        // The mesh has shown that its columns fit into the memory limit.
+        self.inside.get_or_init(|| self.cells(&Run::serial()).unwrap_or_default())
+    }
+
+    /// Has the cells inside found by the threads of a run, if they are not known.
+    pub(crate) fn find_inside(&self, run: &Run) -> Result<()> {
+        if self.inside.get().is_none() {
+            let _ = self.inside.set(self.cells(run)?);
+        }
+        Ok(())
+    }
+
+    fn cells(&self, run: &Run) -> Result<Vec<u8>> {
+        coverage::inside(&self.body, &self.grid, self.padding, self.memory_limit, run)
     }
 
     /// Exact distances to the surface: a tree over it, made when first asked for.

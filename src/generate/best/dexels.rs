@@ -65,13 +65,13 @@ impl Dexels {
         wanted: usize,
         pool: &Pool,
     ) -> Result<Self> {
-        Dexels::among(solid, solid.inside(), bounds, wanted, pool)
+        Dexels::among(solid, (solid.grid(), solid.inside()), bounds, wanted, pool)
     }
 
-    /// The same for a part of the body: some of the cells inside, and their box.
+    /// The same for a part of the body: its cells in a grid, and its box.
     pub(super) fn among(
         solid: &Solid,
-        inside: &[u8],
+        (grid, inside): (&Grid, &[u8]),
         [low, high]: &[Vec3; 2],
         wanted: usize,
         pool: &Pool,
@@ -81,7 +81,7 @@ impl Dexels {
         let sampled = [(axis + 1) % 3, (axis + 2) % 3];
         let width = edges[sampled[0]].max(edges[sampled[1]]) * (1.0 + 2.0 * ROOM);
         let middle = sampled.map(|a| 0.5 * (low[a] + high[a]));
-        let shadow = shadow(solid.grid(), inside, axis);
+        let shadow = shadow(grid, inside, axis);
         let n = width * (wanted as f64 / shadow).sqrt();
         if !(1.0..=MOST).contains(&n) {
             return Err(Error::TooLarge(format!(

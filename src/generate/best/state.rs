@@ -98,7 +98,7 @@ impl<'a> State<'a> {
             alone: filled("what balls are worth", n, Lengths::default())?,
             tried: filled("moves of balls", n, 0)?,
             rows: reserve("rows of columns", ground.dexels.dims[1])?,
-            books: moves,
+            books: moves || ground.connected,
             parts: 1,
             near: Near::default(),
             version: 0,

@@ -29,14 +29,17 @@ impl Target {
     pub(super) fn new(solid: &Solid, planes: &[Plane], plan: &Plan, run: &Run) -> Result<Target> {
         let (grid, values) = rough(solid, plan.cells, run)?;
         let mut field = Field::new(&grid, &values, run.pool())?;
-        drop(values);
         field.cut(&grid, planes, run.pool());
+        if planes.is_empty() {
+            let mut inside = filled("cells inside", values.len(), 0u8)?;
+            inside.iter_mut().zip(&values).for_each(|(i, d)| *i = u8::from(*d < 0.0));
+            let cells = (&grid, inside.as_slice());
+            let dexels = Dexels::among(solid, cells, &bounds(solid)?, plan.columns, run.pool())?;
+            return Ok(Target { field, dexels, volume: solid.unit_moments().volume });
+        }
+        drop(values);
         let dexels = columns(solid, planes, plan.columns, run)?;
-        let volume = if planes.is_empty() {
-            solid.unit_moments().volume
-        } else {
-            dexels.target * dexels.cell()
-        };
+        let volume = dexels.target * dexels.cell();
         Ok(Target { field, dexels, volume })
     }
 }
@@ -51,7 +54,7 @@ fn columns(solid: &Solid, planes: &[Plane], wanted: usize, run: &Run) -> Result<
     // The lattice needs an extent.
     let room = Vec3::repeat(1e-9);
     let bounds = [low.sup(&bounds[0]).inf(&(bounds[1] - room)), high.inf(&bounds[1])];
-    let mut dexels = Dexels::among(solid, &inside, &bounds, wanted, run.pool())?;
+    let mut dexels = Dexels::among(solid, (solid.grid(), &inside), &bounds, wanted, run.pool())?;
     dexels.clip(planes);
     if dexels.target <= 0.0 {
         return Err(nothing());

@@ -107,8 +107,10 @@ impl Lattice {
     }
 
     /// Lattice coordinate `k` (0 or 1) of the column `i`.
+    #[inline]
     pub(crate) fn at(&self, k: usize, i: usize) -> f64 {
-        self.origin[k] + (i as f64 + 0.5) * self.step[k]
+        // By way of a signed number, which processors convert at once.
+        self.origin[k] + (i as i64 as f64 + 0.5) * self.step[k]
     }
 
     /// Number of columns whose lattice coordinate `k` is less than `x`.
@@ -117,7 +119,7 @@ impl Lattice {
         let n = self.dims[k];
         // Rounded up, but for whole numbers, which the steps below set right.
         let guess = (x - self.origin[k]) / self.step[k] + 0.5;
-        let mut i = if guess > 0.0 { (guess as usize).min(n) } else { 0 };
+        let mut i = if guess > 0.0 { (guess as i64 as usize).min(n) } else { 0 };
         while i > 0 && self.at(k, i - 1) >= x {
             i -= 1;
         }
