@@ -299,6 +299,7 @@ static void handles(void) {
   for (int i = 0; i < 12; i++) {
     morula_clump_options huge;
     OK(morula_clump_options_init(&huge, sizeof huge));
+    huge.method = MORULA_METHOD_MSS;
     huge.spheres = 2;
     huge.radius_offset = offsets[i / 3];
     huge.wants = wants[i % 3];
@@ -347,7 +348,7 @@ static void handles(void) {
   STATUS(morula_clump_copy_exposed_areas(clump, 4, numbers), MORULA_STATUS_NOT_WANTED);
   STATUS(morula_clump_copy_plane_contacts(clump, 1, contacts), MORULA_STATUS_NOT_WANTED);
   OK(morula_clump_counters(clump, &counters));
-  CHECK(counters.seconds_measure == 0 && counters.columns == 0);
+  CHECK(counters.seconds_measure == 0);
   o.wants = MORULA_WANT_OVERLAP;
   OK(morula_clump_from_solid(solid, &o, &other));
   OK(morula_clump_overlap(other, &overlap));
