@@ -238,6 +238,7 @@ fn all_limits_hold_together_at_any_size_and_place() {
             max_radius: 0.25 * scale,
             half_spaces: half_spaces.clone(),
             equal_volume: true,
+            smoothness: 0.5,
             ..BestOptions::default()
         };
         let min_radius = 0.05 * scale;
@@ -270,4 +271,28 @@ fn spheres_without_room_are_left_out_and_said_so() {
     assert!(clump.spheres.iter().all(|s| s.radius >= 0.395));
     assert!(reach(&solid, &clump) <= 0.01);
     assert!(clump.spheres.len() == 20 || clump.note.contains("of 20 spheres"), "{}", clump.note);
+}
+
+#[test]
+fn surfaces_come_closer_for_some_mismatch() {
+    for name in ["box", "cone", "stone", "torus"] {
+        let solid = solid(name);
+        let q = [0.0, 1.0, 4.0].map(|smoothness| {
+            let best = BestOptions { smoothness, ..BestOptions::default() };
+            let spheres = make(&solid, 14, &best).spheres;
+            quality(&solid, &spheres, &QualityOptions::default(), &Run::serial()).unwrap()
+        });
+        let d = q.each_ref().map(|q| q.mismatch);
+        let rms = q.each_ref().map(|q| q.rms_distance);
+        assert!(rms[1] < rms[0] && rms[2] < rms[0], "{name}: {rms:?} {d:?}");
+        assert!(d[1] < 1.15 * d[0] && d[2] < 1.3 * d[0], "{name}: {rms:?} {d:?}");
+        // Each is the best by its own measure.
+        let diameter = solid.moments().volume * 6.0 / std::f64::consts::PI;
+        let goal = |s: f64, k: usize| d[k] + s * 3.0 * rms[k] / diameter.cbrt();
+        for (k, s) in [0.0, 1.0, 4.0].into_iter().enumerate() {
+            for other in 0..3 {
+                assert!(goal(s, k) < 1.03 * goal(s, other), "{name} {s}: {rms:?} {d:?}");
+            }
+        }
+    }
 }

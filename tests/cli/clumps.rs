@@ -298,3 +298,32 @@ fn a_coverage_ends_the_set_cover() {
         "{v}"
     );
 }
+
+#[test]
+fn demands_on_clumps_are_kept() {
+    let make = |extra: &[&str]| -> Value {
+        let all = [&["clump", "sample:stone", "-n", "15", "--method", "best", "--json"], extra];
+        serde_json::from_str(&succeeds(&all.concat())).unwrap()
+    };
+    let free = make(&[]);
+    let v = make(&["--max-protrusion", "0.01"]);
+    assert!(v["protrusion"].as_f64().unwrap() <= 0.01 * (1.0 + 1e-9), "{}", v["protrusion"]);
+    assert!(free["protrusion"].as_f64().unwrap() > 0.02, "{}", free["protrusion"]);
+    let v =
+        make(&["--half-space", "0,0,2,0.3", "--half-space", "-3,4,0,1.5", "--max-radius", "0.2"]);
+    for s in v["spheres"].as_array().unwrap() {
+        let s: Vec<f64> = s.as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+        assert!(s[2] + s[3] <= 0.15 + 1e-12 && s[3] <= 0.2, "{s:?}");
+        assert!((4.0 * s[1] - 3.0 * s[0]) / 5.0 + s[3] <= 0.3 + 1e-12, "{s:?}");
+    }
+    let v = make(&["--equal-volume"]);
+    assert!(v["volume_error"].as_f64().unwrap().abs() < 2e-4, "{}", v["volume_error"]);
+    let v = make(&["--overshoot-weight", "5"]);
+    let overshoot = |v: &Value| v["overshoot"].as_f64().unwrap();
+    assert!(overshoot(&v) < 0.5 * overshoot(&free), "{} {}", v["overshoot"], free["overshoot"]);
+    let v = make(&["--smoothness", "1"]);
+    let rms = |v: &Value| v["rms_distance"].as_f64().unwrap();
+    assert!(rms(&v) < rms(&free), "{} {}", v["rms_distance"], free["rms_distance"]);
+    let said = fails(&["clump", "sample:stone", "--half-space", "0,0,1,-9"], 1);
+    assert!(said.contains("half-spaces leave nothing"), "{said}");
+}

@@ -153,7 +153,7 @@ impl Region {
     }
 
     /// Whether a ball's box may meet it.
-    fn may_meet(&self, s: &Seen) -> bool {
+    pub(super) fn may_meet(&self, s: &Seen) -> bool {
         let [u, v] = [s.u, s.v];
         u + s.r >= self.low[0]
             && u - s.r <= self.high[0]

@@ -164,6 +164,12 @@ impl Dexels {
         self.step.powi(3)
     }
 
+    /// The lowest and highest end of all intervals.
+    pub(super) fn ends(&self) -> [f32; 2] {
+        let ends = |[low, high]: [f32; 2], i: &[f32; 2]| [low.min(i[0]), high.max(i[1])];
+        self.intervals.iter().fold([f32::MAX, f32::MIN], ends)
+    }
+
     /// A ball along the columns.
     pub(super) fn seen(&self, ball: &Ball) -> Seen {
         let l = &self.lattice;

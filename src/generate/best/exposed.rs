@@ -12,6 +12,8 @@ pub(super) struct Weights {
     pub inside: f32,
     /// Of clump beyond the target.
     pub outside: f32,
+    /// Of the square of the distance, for a unit of length.
+    pub square: f32,
 }
 
 impl Weights {
@@ -19,7 +21,7 @@ impl Weights {
     /// beyond the target counts `overshoot` times.
     pub(super) fn at(mismatch: f64, overshoot: f64) -> Weights {
         let outside = ((1.0 - mismatch) * overshoot) as f32;
-        Weights { inside: (1.0 + mismatch) as f32, outside }
+        Weights { inside: (1.0 + mismatch) as f32, outside, square: 0.0 }
     }
 }
 
@@ -74,7 +76,8 @@ impl Sampler<'_> {
     }
 
     /// Sums over the open directions. Where the field is f, the sample's weight w is that of
-    /// inside or outside and v = (d, 1): M = Σ w v vᵀ, b = −Σ w clamp(f, ±e) v.
+    /// inside or outside and v = (d, 1): M = Σ w v vᵀ, b = −Σ w clamp(f, ±e) v;
+    /// with the weight q of the square, w + e q and w clamp(f, ±e) + e q f.
     fn sum(&self, ball: &Ball, open: &[Vec<f32>; 3], exposed: usize) -> Normal {
         let zero = f32x8::splat(0.0);
         let (mut m, mut b) = ([zero; 10], [zero; 4]);
@@ -89,12 +92,19 @@ impl Sampler<'_> {
             let (x, y, z) = (f32x8::from(x), f32x8::from(y), f32x8::from(z));
             let f = self.field.at([x * radius + cx, y * radius + cy, z * radius + cz]);
             let mut w = outside ^ (f.simd_lt(zero) & (inside ^ outside));
+            let mut there = f32x8::splat(1.0);
             if 8 * g + 8 > exposed {
-                let mut there = [0.0; 8];
-                there[..exposed - 8 * g].fill(1.0);
-                w *= f32x8::new(there);
+                let mut some = [0.0; 8];
+                some[..exposed - 8 * g].fill(1.0);
+                there = f32x8::new(some);
+                w *= there;
             }
-            let pull = w * f.fast_max(-width).fast_min(width);
+            let mut pull = w * f.fast_max(-width).fast_min(width);
+            if self.weights.square > 0.0 {
+                let square = there * (self.width * self.weights.square);
+                pull += square * f;
+                w += square;
+            }
             let (wx, wy, wz) = (w * x, w * y, w * z);
             m[0] += wx * x;
             m[1] += wx * y;

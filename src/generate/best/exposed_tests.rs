@@ -71,7 +71,7 @@ fn sums_are_those_of_the_slow_transcription() {
         for (round, n) in [1, 2, 5, 20, 40].into_iter().enumerate() {
             let balls = clump(&body, n, round as u64);
             directions.turned(&random.rotation(), &mut turned);
-            let weights = Weights { inside: 1.1, outside: 0.9 };
+            let weights = Weights { inside: 1.1, outside: 0.9, square: 0.0 };
             let sampler = Sampler { field: &field, directions: &turned, weights, width: 0.02 };
             let mut scratch = Scratch::default();
             for i in 0..n {
@@ -122,7 +122,7 @@ fn pulls_are_the_slopes_of_volumes() {
         let mut turned = Vec::new();
         directions.turned(&Random::new(5, 5).rotation(), &mut turned);
         let balls = clump(&body, 6, 3);
-        let weights = Weights { inside: 1.3, outside: 0.8 };
+        let weights = Weights { inside: 1.3, outside: 0.8, square: 0.0 };
         let width = 1e-4;
         let sampler = Sampler { field: &field, directions: &turned, weights, width };
         let mut cover = Cover::new(&dexels).unwrap();

@@ -6,6 +6,7 @@
 //! into the volume between the surfaces; then single balls are moved to where they help more,
 //! with what is around them refined, and kept when the mismatch by exact columns falls.
 
+mod between;
 mod chords;
 mod connected;
 mod cover;
@@ -109,7 +110,10 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         stopped == Stopped::Spheres
     };
     let smooth = if asked.smoothness > 0.0 {
-        Some(Smooth::new(asked.smoothness, solid.grid(), &ground, (n, volume), run.seed())?)
+        let held = solid.bytes() + field.bytes() + dexels.bytes();
+        let room = solid.memory_limit().saturating_sub(held);
+        let (grid, seed) = (solid.grid(), run.seed());
+        Some(Smooth::new(asked.smoothness, grid, &ground, (n, volume), seed, room)?)
     } else {
         None
     };
@@ -175,11 +179,6 @@ fn check(o: &GenerateOptions) -> Result<usize> {
     }
     if o.confine {
         return only_mss("confine");
-    }
-    // What is made of the demands.
-    let made = BestOptions { smoothness: 0.0, ..o.best.clone() };
-    if o.best != made {
-        return Err(Error::Unsupported("these demands on clumps of best are not made yet".into()));
     }
     if o.spheres > MOST {
         return Err(Error::InvalidArgument(format!(

@@ -41,9 +41,11 @@ pub struct BestOptions {
     pub half_spaces: Vec<HalfSpace>,
     /// Whether the spheres must hang together by overlaps.
     pub connected: bool,
-    /// Whether the union of the spheres has the volume of the target.
+    /// Whether the union of the spheres has the volume of the target, or of what half-spaces leave
+    /// of it, as far as other demands allow.
     pub equal_volume: bool,
-    /// Weight of the distance between the surfaces against D; 0: D alone.
+    /// Weight s of the distance between the surfaces against D: 3 s × its root mean square, both
+    /// ways, over the target's equivalent diameter is added to what is made least. 0: D alone.
     pub smoothness: f64,
     /// Exact symmetry of the clump.
     pub symmetry: Symmetry,

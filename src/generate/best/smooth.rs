@@ -1,10 +1,13 @@
-//! How far the surface of the target is from that of the clump, as a second measure beside D.
+//! How far the surfaces of clump and target are apart, as a second measure beside D.
 //!
-//! Points spread evenly over the target's surface; the distance of a point p from the clump with
+//! From clump to target by columns ([`Between`]). From target to clump by points spread evenly over
+//! the target's surface: the distance of a point p from the clump with
 //! balls (c, r) is g = min |p − c| − r. Outside the clump that is exact, inside it is the depth
 //! in one ball. A step makes least the squares of what each ball is nearest to, as in fits of
 //! spheres to surfaces, beside what the step makes least anyway.
 
+use super::between::{Between, Fresh};
+use super::cover::Region;
 use super::dexels::{Dexels, Seen};
 use super::exposed::Normal;
 use super::field::Field;
@@ -32,13 +35,13 @@ const POINTS: u64 = 1 << 40;
 /// A distance and the number of the ball that has it.
 type Nearest = (f32, u32);
 
-/// Points of the target's surface.
+/// Points of the target's surface, and its area.
 pub(super) fn points(
     field: &Field,
     grid: &Grid,
     balls: usize,
     random: &mut Random,
-) -> Result<Vec<[f32; 3]>> {
+) -> Result<(Vec<[f32; 3]>, f64)> {
     let wanted = LEAST.max(balls.saturating_mul(EACH));
     let layer = LAYER * field.cell();
     let reach = 0.5 * grid.spacing.norm() as f32;
@@ -66,11 +69,13 @@ pub(super) fn points(
         }
     }
     let found = points.len();
+    let tried = cells.len() as f64 * grid.spacing.product();
+    let area = tried * found as f64 / tries as f64 / (2.0 * f64::from(layer));
     if found > wanted {
         (0..wanted).for_each(|k| points[k] = points[k * found / wanted]);
         points.truncate(wanted);
     }
-    Ok(points)
+    Ok((points, area))
 }
 
 /// The point of the surface below or above `p`.
@@ -94,6 +99,9 @@ pub(super) struct Smooth {
     nearest: Vec<Nearest>,
     /// Sum of their squares.
     sum: f64,
+    between: Between,
+    /// Of the target, unit frame.
+    area: f64,
     /// Three over the target's equivalent diameter.
     scale: f64,
     /// Distance between columns.
@@ -105,22 +113,32 @@ pub(super) struct Smooth {
 pub(super) struct Buffers {
     marked: Vec<bool>,
     fresh: Vec<(u32, Nearest)>,
+    columns: Fresh,
 }
 
 impl Smooth {
-    /// For so many balls, of which there is none yet. `volume`: the target's, unit frame.
+    /// For so many balls, of which there is none yet. `volume`: the target's, unit frame;
+    /// `room`: bytes that it may take.
     pub(super) fn new(
         weight: f64,
         grid: &Grid,
         ground: &Ground,
         (balls, volume): (usize, f64),
         seed: u64,
+        room: u64,
     ) -> Result<Smooth> {
-        let points = points(ground.field, grid, balls, &mut Random::new(seed, POINTS))?;
-        Smooth::of(weight, points, ground.dexels, volume)
+        let (points, area) = points(ground.field, grid, balls, &mut Random::new(seed, POINTS))?;
+        let between = Between::new(ground.field, ground.dexels, room)?;
+        Smooth::of(weight, (points, area), between, ground.dexels, volume)
     }
 
-    fn of(weight: f64, points: Vec<[f32; 3]>, dexels: &Dexels, volume: f64) -> Result<Smooth> {
+    fn of(
+        weight: f64,
+        (points, area): (Vec<[f32; 3]>, f64),
+        between: Between,
+        dexels: &Dexels,
+        volume: f64,
+    ) -> Result<Smooth> {
         let mut seen = reserve("points along columns", points.len())?;
         seen.extend(points.iter().map(|&center| {
             let s = dexels.seen(&Ball { center, radius: 0.0 });
@@ -129,11 +147,18 @@ impl Smooth {
         let nearest = reserve("distances of points", points.len())?;
         let scale = 3.0 / (6.0 * volume / std::f64::consts::PI).cbrt();
         let step = dexels.cell().cbrt();
-        Ok(Smooth { weight, points, seen, nearest, sum: 0.0, scale, step })
+        Ok(Smooth { weight, points, seen, nearest, sum: 0.0, between, area, scale, step })
     }
 
-    /// All points anew.
-    pub(super) fn whole(&mut self, balls: &[Seen]) {
+    /// All points and columns anew; `region` has all.
+    pub(super) fn whole(
+        &mut self,
+        dexels: &Dexels,
+        region: &Region,
+        balls: &[Seen],
+        buffers: &mut Buffers,
+    ) {
+        self.between.whole(dexels, region, balls, &mut buffers.columns);
         let Smooth { seen, nearest, sum, .. } = self;
         nearest.clear();
         nearest.extend(seen.iter().map(|p| {
@@ -146,10 +171,19 @@ impl Smooth {
         *sum = nearest.iter().map(|n| square(n.0)).sum();
     }
 
-    /// By how much the sum of squares would change with the balls `of` at the places that `balls`
-    /// has for them.
-    pub(super) fn change(&self, of: &[u32], balls: &[Seen], buffers: &mut Buffers) -> f64 {
-        let Buffers { marked, fresh } = buffers;
+    /// By how much the sums of points and columns would change with the balls `of` at the places
+    /// that `balls` has for them. The region has one in `step` of the rows that they touch.
+    pub(super) fn change(
+        &self,
+        dexels: &Dexels,
+        region: &Region,
+        step: u32,
+        of: &[u32],
+        balls: &[Seen],
+        buffers: &mut Buffers,
+    ) -> [f64; 2] {
+        let Buffers { marked, fresh, columns } = buffers;
+        let between = self.between.change(dexels, region, balls, columns);
         marked.clear();
         marked.resize(balls.len(), false);
         of.iter().for_each(|&j| marked[j as usize] = true);
@@ -172,39 +206,54 @@ impl Smooth {
                 fresh.push((k, best));
             }
         }
-        change
+        [change, f64::from(step) * between]
     }
 
     /// Takes over what the last [`Smooth::change`] found.
-    pub(super) fn take(&mut self, change: f64, buffers: &Buffers) {
+    pub(super) fn take(
+        &mut self,
+        dexels: &Dexels,
+        region: &Region,
+        [change, between]: [f64; 2],
+        buffers: &Buffers,
+    ) {
+        self.between.take(dexels, region, between, &buffers.columns);
         for &(k, nearest) in &buffers.fresh {
             self.nearest[k as usize] = nearest;
         }
         self.sum += change;
     }
 
-    /// What a clump is charged when the sum of squares is changed so: the weight times three root
-    /// mean squares over the target's equivalent diameter.
-    fn charge(&self, change: f64) -> f64 {
-        let mean = (self.sum + change).max(0.0) / self.points.len().max(1) as f64;
-        self.weight * self.scale * self.step * mean.sqrt()
+    /// The root of the mean square both ways, unit frame, when the sums are changed so.
+    fn distance(&self, [change, between]: [f64; 2]) -> f64 {
+        let count = self.points.len().max(1) as f64;
+        let to_clump = self.step * self.step * (self.sum + change).max(0.0) / count;
+        let to_target = 2.0 * self.between.sum(between) * self.step.powi(3) / self.area;
+        (0.5 * (to_clump + to_target)).sqrt()
     }
 
-    /// The charge now.
+    /// What the clump is charged now: the weight times three distances over the target's
+    /// equivalent diameter.
     pub(super) fn now(&self) -> f64 {
-        self.charge(0.0)
+        self.weight * self.scale * self.distance([0.0; 2])
     }
 
     /// By how much the charge rises with a change.
-    pub(super) fn rise(&self, change: f64) -> f64 {
-        self.charge(change) - self.charge(0.0)
+    pub(super) fn rise(&self, change: [f64; 2]) -> f64 {
+        self.weight * self.scale * (self.distance(change) - self.distance([0.0; 2]))
+    }
+
+    /// By how much the charge rises for a unit of ∫ f in columns.
+    pub(super) fn slope(&self) -> f64 {
+        let least = self.distance([0.0; 2]).max(1e-9);
+        0.5 * self.weight * self.scale * self.step.powi(3) / (self.area * least)
     }
 
     /// What draws balls; `volumes`: of union and target together, unit frame.
     pub(super) fn pull(&self, volumes: f64) -> Pull<'_> {
         let count = self.points.len().max(1) as f64;
-        let mean = self.step * (self.sum.max(0.0) / count).sqrt();
-        let weight = self.weight * self.scale * volumes / (count * mean.max(1e-9));
+        let least = self.distance([0.0; 2]).max(1e-9);
+        let weight = 0.5 * self.weight * self.scale * volumes / (count * least);
         Pull { points: &self.points, nearest: &self.nearest, step: self.step as f32, weight }
     }
 }

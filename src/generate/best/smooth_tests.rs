@@ -15,18 +15,20 @@ fn clump(n: usize, seed: u64) -> Vec<Ball> {
         .collect()
 }
 
-fn field_and_points(body: &Bodies, balls: usize) -> (Field, Vec<[f32; 3]>) {
+fn field_and_points(body: &Bodies, balls: usize) -> (Field, Vec<[f32; 3]>, f64) {
     let field = Field::new(body.solid.grid(), &body.distance, &Pool::serial()).unwrap();
-    let points = points(&field, body.solid.grid(), balls, &mut Random::new(3, 3)).unwrap();
-    (field, points)
+    let (points, area) = points(&field, body.solid.grid(), balls, &mut Random::new(3, 3)).unwrap();
+    (field, points, area)
 }
 
 #[test]
 fn points_are_spread_evenly_over_the_surface() {
     let all = bodies();
-    let (_, on_box) = field_and_points(&all[0], 200);
+    let (_, on_box, area) = field_and_points(&all[0], 200);
     assert!(on_box.len() > 5000, "{}", on_box.len());
     let [low, high] = all[0].bounds;
+    let edge = high.x - low.x;
+    assert!((area / (6.0 * edge * edge) - 1.0).abs() < 0.05, "{area}");
     let mut faces = [0usize; 6];
     for p in &on_box {
         let ends = (0..6).map(|k| {
@@ -41,7 +43,7 @@ fn points_are_spread_evenly_over_the_surface() {
     assert!(faces.iter().all(|&n| n.abs_diff(mean) < mean / 10), "{faces:?}");
 
     // The outer half of a torus has more area than the inner: ½ ± r / (π R) of it.
-    let (_, on_torus) = field_and_points(&all[1], 200);
+    let (_, on_torus, _) = field_and_points(&all[1], 200);
     let middle = 0.5 * (all[1].bounds[0] + all[1].bounds[1]);
     let scale = all[1].solid.frame().scale;
     let outer = on_torus.iter().filter(|p| {
@@ -65,28 +67,45 @@ fn slow(p: &[f32; 3], balls: &[Ball]) -> (f64, usize) {
 fn charges_are_those_of_all_distances_and_changes_add_up() {
     for body in bodies() {
         let dexels = body.dexels(4000);
-        let (_, points) = field_and_points(&body, 20);
+        let (field, points, area) = field_and_points(&body, 20);
         let volume = body.solid.unit_moments().volume;
         let charge = |balls: &[Ball]| {
             let sum: f64 = points.iter().map(|p| slow(p, balls).0.powi(2)).sum();
             let diameter = (6.0 * volume / std::f64::consts::PI).cbrt();
-            2.5 * 3.0 * (sum / points.len() as f64).sqrt() / diameter
+            let mut whole = Between::new(&field, &dexels, u64::MAX).unwrap();
+            let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
+            let mut region = Region::default();
+            region.all(&dexels);
+            whole.whole(&dexels, &region, &seen, &mut Fresh::default());
+            let back = 2.0 * whole.sum(0.0) * dexels.cell() / area;
+            2.5 * 3.0 * (0.5 * (sum / points.len() as f64 + back)).sqrt() / diameter
         };
-        let mut smooth = Smooth::of(2.5, points.clone(), &dexels, volume).unwrap();
+        let mut smooth = Smooth::of(
+            2.5,
+            (points.clone(), area),
+            Between::new(&field, &dexels, u64::MAX).unwrap(),
+            &dexels,
+            volume,
+        )
+        .unwrap();
         let mut balls = clump(20, 3);
         let mut seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
-        smooth.whole(&seen);
         let mut look = Look::default();
+        look.region.all(&dexels);
+        smooth.whole(&dexels, &look.region, &seen, &mut look.smooth);
         for some in clump(40, 9).chunks(2) {
             assert!((smooth.now() / charge(&balls) - 1.0).abs() < 1e-4);
             let of = [0, 9].map(|k| (some[0].radius.to_bits() + k) % 20);
+            let old = of.map(|j| seen[j as usize]);
             for (&j, ball) in of.iter().zip(some) {
                 balls[j as usize] = *ball;
                 seen[j as usize] = dexels.seen(ball);
             }
-            let change = smooth.change(&of, &seen, &mut look.smooth);
+            let new = of.map(|j| seen[j as usize]);
+            look.region.of(&dexels, old.into_iter().chain(new));
+            let change = smooth.change(&dexels, &look.region, 1, &of, &seen, &mut look.smooth);
             let (now, rise) = (smooth.now(), smooth.rise(change));
-            smooth.take(change, &look.smooth);
+            smooth.take(&dexels, &look.region, change, &look.smooth);
             assert!((smooth.now() - now - rise).abs() < 1e-9);
         }
         assert!((smooth.now() / charge(&balls) - 1.0).abs() < 1e-4);
@@ -97,11 +116,22 @@ fn charges_are_those_of_all_distances_and_changes_add_up() {
 fn pulls_are_the_slopes_of_the_charge() {
     let body = &bodies()[1];
     let dexels = body.dexels(4000);
-    let (_, points) = field_and_points(body, 20);
+    let (field, points, area) = field_and_points(body, 20);
     let balls = clump(25, 6);
-    let mut smooth = Smooth::of(1.5, points.clone(), &dexels, 0.1).unwrap();
+    let mut smooth = Smooth::of(
+        1.5,
+        (points.clone(), area),
+        Between::new(&field, &dexels, u64::MAX).unwrap(),
+        &dexels,
+        0.1,
+    )
+    .unwrap();
     let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
-    smooth.whole(&seen);
+    let mut look = Look::default();
+    look.region.all(&dexels);
+    smooth.whole(&dexels, &look.region, &seen, &mut look.smooth);
+    let back = smooth.distance([0.0; 2]).powi(2)
+        - 0.5 * smooth.step.powi(2) * smooth.sum / points.len() as f64;
     let volumes = 0.3;
     let pull = smooth.pull(volumes);
     let all: Vec<u32> = (0..25).collect();
@@ -125,9 +155,10 @@ fn pulls_are_the_slopes_of_the_charge() {
                             ball.radius += by
                         }
                         let sum: f64 = points.iter().map(|p| slow(p, &moved).0.powi(2)).sum();
-                        1.5 * smooth.scale * (sum / points.len() as f64).sqrt()
+                        let mean = 0.5 * sum / points.len() as f64 + back;
+                        1.5 * smooth.scale * mean.sqrt()
                     };
-                    let slope = (charge(1e-3) - charge(-1e-3)) / 2e-3 * volumes;
+                    let slope = (charge(2e-4) - charge(-2e-4)) / 4e-4 * volumes;
                     let mine = -normal.b[a];
                     assert!((slope - mine).abs() < 0.02 * slope.abs() + 2e-4, "{slope} {mine}");
                 }

@@ -141,7 +141,11 @@ impl<'a> State<'a> {
 
     /// The weights for which a step down is a step down in the goal.
     pub(super) fn weights(&self) -> Weights {
-        Weights::at(self.weighed(), self.ground.overshoot)
+        let mut weights = Weights::at(self.weighed(), self.ground.overshoot);
+        if let Some(smooth) = &self.smooth {
+            weights.square = (smooth.slope() * self.both(&self.lengths)) as f32;
+        }
+        weights
     }
 
     /// What draws balls beside the volumes.
@@ -163,14 +167,20 @@ impl<'a> State<'a> {
     }
 
     /// The same, with the changes of the lengths and of the distances.
-    fn change(&self, of: &[u32], seen: &[Seen], step: u32, look: &mut Look) -> (f64, Lengths, f64) {
+    fn change(
+        &self,
+        of: &[u32],
+        seen: &[Seen],
+        step: u32,
+        look: &mut Look,
+    ) -> (f64, Lengths, [f64; 2]) {
         let dexels = self.ground.dexels;
         self.aim(of, seen, look);
         look.region.thin(step);
         let lengths = look.exchange(&self.cover, &self.piles, dexels, of, seen);
         let cost = f64::from(step) * self.cost(&lengths);
-        let Some(smooth) = &self.smooth else { return (cost, lengths, 0.0) };
-        let distances = smooth.change(of, seen, &mut look.smooth);
+        let Some(smooth) = &self.smooth else { return (cost, lengths, [0.0; 2]) };
+        let distances = smooth.change(dexels, &look.region, step, of, seen, &mut look.smooth);
         let both = self.both(&self.lengths.plus(&lengths));
         (cost + both * smooth.rise(distances), lengths, distances)
     }
@@ -221,7 +231,8 @@ impl<'a> State<'a> {
         self.seen.extend(self.balls.iter().map(|b| dexels.seen(b)));
         self.lengths = self.cover.whole(dexels, &self.seen, look);
         if let Some(smooth) = &mut self.smooth {
-            smooth.whole(&self.seen);
+            look.region.all(dexels);
+            smooth.whole(dexels, &look.region, &self.seen, &mut look.smooth);
         }
         if !self.books {
             return;
@@ -278,7 +289,7 @@ impl<'a> State<'a> {
             return false;
         }
         if let Some(smooth) = &mut self.smooth {
-            smooth.take(distances, &look.smooth);
+            smooth.take(dexels, &look.region, distances, &look.smooth);
         }
         look.take(&mut self.cover, &mut self.piles, dexels, &mut self.alone);
         for b in look.region.rows() {
