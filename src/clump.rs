@@ -45,7 +45,8 @@ pub struct Clump {
     pub spheres: Vec<Sphere>,
     /// Why the method stopped.
     pub stopped: Stopped,
-    /// One sentence when fewer spheres came than were asked for; else empty.
+    /// One sentence when fewer spheres came than were asked for, or a demand is kept in part; else
+    /// empty.
     pub note: String,
     /// Quality, when it was wanted.
     pub quality: Option<Quality>,

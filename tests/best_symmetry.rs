@@ -7,8 +7,9 @@ use morula::generate::{
     BestOptions, Effort, GenerateOptions, HalfSpace, Method, Symmetry, generate,
 };
 use morula::math::{Sphere, Vec3};
+use morula::measure::{QualityOptions, quality};
 use morula::shape::primitive::Primitive;
-use morula::shape::{ImportOptions, Shape};
+use morula::shape::{ImportOptions, Layout, Shape};
 use morula::solid::{Resolution, SolidOptions};
 use morula::{Clump, Error, Run, Solid};
 
@@ -172,4 +173,159 @@ fn deadline_and_cancel_give_symmetric_clumps() {
             assert!(off(&clump.spheres, &center, &Vec3::from(normal)) < 1e-14);
         }
     }
+}
+
+/// An ellipsoid or a box, turned, scaled and moved; and its axes.
+fn placed(name: &str, scale: f64, at: f64) -> (Solid, [Vec3; 3]) {
+    let (mut vertices, faces) = match name {
+        "box" => Primitive::Box { edges: [1.0, 0.8, 0.6] }.mesh(8).unwrap(),
+        _ => Primitive::from_name(name).unwrap().mesh(48).unwrap(),
+    };
+    let axes = [[0.6, 0.64, 0.48], [-0.8, 0.48, 0.36], [0.0, -0.6, 0.8]].map(Vec3::from);
+    for v in &mut vertices {
+        let p = (axes[0] * v[0] + axes[1] * v[1] + axes[2] * v[2]) * scale;
+        *v = [p.x + at, p.y - at, p.z + 2.0 * at];
+    }
+    let options = ImportOptions::default();
+    let shape = Shape::from_mesh(&vertices, &faces, &options, &Run::serial()).unwrap();
+    (solid_of(&shape, 40), axes)
+}
+
+#[test]
+fn the_symmetry_of_bodies_is_found_however_they_lie() {
+    for (name, scale, at) in [("ellipsoid", 1.0, 0.0), ("box", 1e-9, 3e-8), ("box", 1e6, -1e8)] {
+        let (solid, axes) = placed(name, scale, at);
+        let center = solid.moments().centroid;
+        for (n, effort) in [(33, Effort::Normal), (100, Effort::Draft)] {
+            let clump = make(&solid, n, effort, Symmetry::Auto);
+            assert_eq!((clump.spheres.len(), clump.note.as_str()), (n, ""));
+            for axis in axes {
+                // The axes are found from the moments, to so much.
+                let close = 1e-9 * scale + 1e-14 * at.abs();
+                let off = off(&clump.spheres, &center, &axis);
+                assert!(off < close, "{name} {scale} {n}: {off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn all_images_of_a_cube_are_made_where_there_are_enough_spheres() {
+    let solid = solid("box", 32);
+    let center = solid.moments().centroid;
+    let clump = make(&solid, 200, Effort::Draft, Symmetry::Auto);
+    assert_eq!((clump.spheres.len(), clump.note.as_str()), (200, ""));
+    let diagonals = [[1.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, -1.0]];
+    for normal in THREE.iter().chain(&diagonals) {
+        assert!(off(&clump.spheres, &center, &Vec3::from(*normal)) < 1e-14);
+    }
+}
+
+#[test]
+fn any_number_of_spheres_is_honoured_with_the_symmetry_found() {
+    for name in ["box", "ellipsoid"] {
+        let solid = solid(name, 24);
+        for n in (1..=30).chain([50, 100]) {
+            let clump = make(&solid, n, Effort::Draft, Symmetry::Auto);
+            assert_eq!((clump.spheres.len(), clump.stopped), (n, Stopped::Spheres), "{name}");
+        }
+    }
+    // Where the whole symmetry is not to be had, that is said.
+    let clump = make(&solid("box", 24), 5, Effort::Draft, Symmetry::Auto);
+    assert!(clump.note.contains("of the 48 images"), "{}", clump.note);
+}
+
+#[test]
+fn a_body_without_symmetry_has_the_clump_that_it_has_anyway() {
+    let solid = solid("stone", 40);
+    let none = make(&solid, 20, Effort::Normal, Symmetry::None);
+    assert_eq!(none.spheres, make(&solid, 20, Effort::Normal, Symmetry::Auto).spheres);
+}
+
+#[test]
+fn symmetry_costs_little() {
+    let wanted = QualityOptions { surface: false, ..QualityOptions::default() };
+    let run = Run::serial();
+    for (name, n) in [
+        ("box", 20),
+        ("box", 100),
+        ("ellipsoid", 10),
+        ("ellipsoid", 50),
+        ("torus", 20),
+        ("tablet", 20),
+        ("cone", 50),
+    ] {
+        let solid = solid(name, 64);
+        let d = |symmetry: Symmetry| {
+            let clump = make(&solid, n, Effort::Normal, symmetry);
+            quality(&solid, &clump.spheres, &wanted, &run).unwrap().mismatch
+        };
+        let (auto, none) = (d(Symmetry::Auto), d(Symmetry::None));
+        assert!(auto < 1.25 * none, "{name} {n}: {auto} {none}");
+    }
+}
+
+#[test]
+fn the_symmetry_found_does_not_depend_on_threads() {
+    let solid = solid("box", 32);
+    for n in [10, 50] {
+        let make = |threads: usize| {
+            let run = Run::new(threads).unwrap();
+            generate(&solid, &ask(n, Effort::Normal, Symmetry::Auto), &run).unwrap().spheres
+        };
+        let one = make(1);
+        assert_eq!(one, make(2));
+        assert_eq!(one, make(8));
+    }
+}
+
+#[test]
+fn voxels_have_symmetric_clumps() {
+    let dims = [24, 16, 12];
+    let mask: Vec<u8> =
+        (0..24 * 16 * 12).map(|i| u8::from(i % 24 < 16 || i / 24 % 16 < 8)).collect();
+    let layout = Layout { dims, spacing: [0.5; 3], origin: [3.0, 4.0, 5.0] };
+    let options = ImportOptions::default();
+    let shape = Shape::from_mask(&mask, &layout, &options, &Run::serial()).unwrap();
+    let solid = solid_of(&shape, 24);
+    let clump = make(&solid, 25, Effort::Normal, Symmetry::Auto);
+    assert_eq!((clump.spheres.len(), clump.note.as_str()), (25, ""));
+    assert!(off(&clump.spheres, &solid.moments().centroid, &Vec3::z()) < 1e-13);
+}
+
+#[test]
+fn symmetric_clumps_hang_together_where_that_is_asked_for() {
+    // Two balls far apart on a thin rod.
+    let ball = |x: f64, i: f64, j: f64, k: f64| {
+        (i - x).powi(2) + (j - 11.5).powi(2) + (k - 11.5).powi(2) < 110.0
+    };
+    let mut mask = Vec::new();
+    for k in 0..24 {
+        for j in 0..24 {
+            for i in 0..80 {
+                let [x, y, z] = [i, j, k].map(f64::from);
+                let rod = (10..70).contains(&i) && (11..13).contains(&j) && (11..13).contains(&k);
+                mask.push(u8::from(rod || ball(11.5, x, y, z) || ball(67.5, x, y, z)));
+            }
+        }
+    }
+    let layout = Layout { dims: [80, 24, 24], spacing: [1.0; 3], origin: [0.0; 3] };
+    let options = ImportOptions::default();
+    let shape = Shape::from_mask(&mask, &layout, &options, &Run::serial()).unwrap();
+    let solid = solid_of(&shape, 80);
+    let mut options = ask(24, Effort::Normal, planes(&THREE));
+    options.best.connected = true;
+    let clump = generate(&solid, &options, &Run::serial()).unwrap();
+    assert_eq!((clump.spheres.len(), clump.note.as_str()), (24, ""));
+    let center = solid.moments().centroid;
+    for normal in THREE {
+        assert!(off(&clump.spheres, &center, &Vec3::from(normal)) < 1e-12);
+    }
+    let meet = |a: &Sphere, b: &Sphere| (a.center - b.center).norm() < a.radius + b.radius;
+    let (mut rest, mut open) = (clump.spheres[1..].to_vec(), vec![clump.spheres[0]]);
+    while let Some(s) = open.pop() {
+        open.extend(rest.iter().filter(|t| meet(&s, t)));
+        rest.retain(|t| !meet(&s, t));
+    }
+    assert!(rest.is_empty(), "{rest:?}");
 }

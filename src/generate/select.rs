@@ -164,7 +164,7 @@ impl Points {
     }
 
     /// Calls `f` for each chunk with the bits of its points that the ball holds and none did.
-    fn held(&self, ball: &Ball, mut f: impl FnMut(usize, u64)) {
+    pub(super) fn held(&self, ball: &Ball, mut f: impl FnMut(usize, u64)) {
         for (g, bounds) in self.groups.iter().enumerate() {
             if let Lies::Out = bounds.lies(ball) {
                 continue;

@@ -76,7 +76,8 @@ pub(super) fn join(state: &mut State, look: &mut Look) -> usize {
         }
         let Some([i, j]) = closest(&state.balls, &part) else { return count };
         let mut best: Option<(f64, Vec<Ball>)> = None;
-        for balls in ways(state, &part, [i, j]) {
+        for mut balls in ways(state, &part, [i, j]) {
+            state.orbits.even(&state.balls, &mut balls);
             if parts(&balls, &mut near).1 >= count {
                 continue;
             }

@@ -54,7 +54,6 @@ use search::{BATCH, Search};
 use smooth::Smooth;
 use start::Start;
 use state::Ground;
-use target::Target;
 
 /// Most spheres of a clump. Their numbers fit in the tags of chords.
 const MOST: usize = 100_000;
@@ -70,10 +69,12 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     run.check(0.0, "measuring the distances of cells")?;
     let (frame, asked) = (solid.frame(), &options.best);
     let planes = limits::planes(asked, frame);
-    let sites = symmetry::sites(solid, asked, &planes)?;
-    let n = sites.as_ref().map_or(wanted, |s| s.most(wanted));
-    let plan = options.effort.plan(n);
-    let Target { field, dexels, volume } = Target::new(solid, &planes, &plan, run)?;
+    let plan = options.effort.plan(wanted);
+    let (field, cells) = target::field(solid, &planes, plan.cells, run)?;
+    let choices = symmetry::choices(solid, &field, asked, &planes, wanted)?;
+    let n = choices.first().map_or(wanted, |s| s.most(wanted));
+    let columns = choices.first().map_or(plan.columns, |s| s.columns(plan.columns));
+    let (dexels, volume) = target::dexels(solid, &planes, cells, columns, run)?;
     run.count(|c| {
         c.columns += (dexels.dims[0] * dexels.dims[1]) as u64;
         c.peak_bytes = c.peak_bytes.max(solid.bytes() + field.bytes() + dexels.bytes());
@@ -102,7 +103,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let mut done = 0.0;
     let mut go = || {
         done += 1.0 / plan.iterations as f64;
-        if run.cancelled(0.1 + 0.3 * done) {
+        if run.cancelled(0.1 + 0.3 * f64::min(done, 1.0)) {
             stopped = Stopped::Cancelled;
         } else if run.late() {
             stopped = Stopped::Deadline;
@@ -117,8 +118,8 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     } else {
         None
     };
-    let start = Start { ground, plan, n, run };
-    let mut state = start.state(sites.as_ref(), smooth, &mut look, &mut go)?;
+    let start = Start { ground, plan, n, seed: run.seed(), pool: run.pool() };
+    let mut state = start.best(&choices, smooth, &mut look, &mut go)?;
     state.join(&mut look);
     run.count(|c| {
         let held = solid.bytes() + field.bytes() + dexels.bytes() + state.bytes();
@@ -150,9 +151,11 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let d = state.mismatch();
     let volume = (whole, run.pool());
     let (spheres, mut short) = finish::finish(&state.balls, &state.orbits, frame, &exact, volume)?;
-    if n < wanted {
-        short = [symmetry::note(&sites, wanted, n), short].concat();
-        stopped = if stopped == Stopped::Spheres { Stopped::Exhausted } else { stopped };
+    if let Some(chosen) = state.orbits.sites() {
+        short = [symmetry::note(chosen, wanted, n), short].concat();
+    }
+    if n < wanted && stopped == Stopped::Spheres {
+        stopped = Stopped::Exhausted;
     }
     let note = match stopped {
         Stopped::Deadline => format!("the deadline passed at a mismatch of about {d:.4}"),

@@ -19,9 +19,12 @@ pub enum Symmetry {
     /// None but by chance.
     #[default]
     None,
-    /// That of the target: its mirror planes through the centre of mass and exchanges of axes.
+    /// That of the target: its mirror planes through the centre of mass and exchanges of axes, or
+    /// the largest part of them that costs no more than a tenth of D; the note says when it is a
+    /// part.
     Auto,
-    /// Mirror planes through the centre of mass, by their normals in the caller's frame.
+    /// Mirror planes through the centre of mass, by their normals in the caller's frame. Where
+    /// spheres and their images cannot be as many as asked for, they are fewer.
     Planes(Vec<Vec3>),
 }
 

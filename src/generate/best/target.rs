@@ -2,46 +2,52 @@
 
 use super::bounds;
 use super::dexels::Dexels;
-use super::effort::Plan;
 use super::field::Field;
 use super::limits::Plane;
 use crate::error::{Error, Result, filled};
 use crate::math::Vec3;
 use crate::run::Run;
-use crate::solid::Solid;
 use crate::solid::field::rough;
+use crate::solid::{Grid, Solid};
 
 /// Relative error of a volume that is exact enough.
 const EXACT: f64 = 1e-6;
 /// Columns for a volume that is to be exact.
 const FINE: usize = 200_000;
 
-/// The target of a search.
-pub(super) struct Target {
-    pub field: Field,
-    pub dexels: Dexels,
-    /// Unit frame.
-    pub volume: f64,
+/// The distance field of the target, of about so many cells or fewer along its longest edge; and
+/// its cells before half-spaces cut it.
+pub(super) fn field(
+    solid: &Solid,
+    planes: &[Plane],
+    cells: u32,
+    run: &Run,
+) -> Result<(Field, (Grid, Vec<f32>))> {
+    let (grid, values) = rough(solid, cells, run)?;
+    let mut field = Field::new(&grid, &values, run.pool())?;
+    field.cut(&grid, planes, run.pool());
+    Ok((field, (grid, values)))
 }
 
-impl Target {
-    /// With about as many columns that meet it, and cells, as planned.
-    pub(super) fn new(solid: &Solid, planes: &[Plane], plan: &Plan, run: &Run) -> Result<Target> {
-        let (grid, values) = rough(solid, plan.cells, run)?;
-        let mut field = Field::new(&grid, &values, run.pool())?;
-        field.cut(&grid, planes, run.pool());
-        if planes.is_empty() {
-            let mut inside = filled("cells inside", values.len(), 0u8)?;
-            inside.iter_mut().zip(&values).for_each(|(i, d)| *i = u8::from(*d < 0.0));
-            let cells = (&grid, inside.as_slice());
-            let dexels = Dexels::among(solid, cells, &bounds(solid)?, plan.columns, run.pool())?;
-            return Ok(Target { field, dexels, volume: solid.unit_moments().volume });
-        }
-        drop(values);
-        let dexels = columns(solid, planes, plan.columns, run)?;
-        let volume = dexels.target * dexels.cell();
-        Ok(Target { field, dexels, volume })
+/// About so many columns that meet the target, and its volume, unit frame.
+pub(super) fn dexels(
+    solid: &Solid,
+    planes: &[Plane],
+    (grid, values): (Grid, Vec<f32>),
+    wanted: usize,
+    run: &Run,
+) -> Result<(Dexels, f64)> {
+    if planes.is_empty() {
+        let mut inside = filled("cells inside", values.len(), 0u8)?;
+        inside.iter_mut().zip(&values).for_each(|(i, d)| *i = u8::from(*d < 0.0));
+        let cells = (&grid, inside.as_slice());
+        let dexels = Dexels::among(solid, cells, &bounds(solid)?, wanted, run.pool())?;
+        return Ok((dexels, solid.unit_moments().volume));
     }
+    drop(values);
+    let dexels = columns(solid, planes, wanted, run)?;
+    let volume = dexels.target * dexels.cell();
+    Ok((dexels, volume))
 }
 
 /// About so many columns that meet the target.

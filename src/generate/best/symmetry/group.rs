@@ -8,9 +8,12 @@ pub(super) type Matrix = Matrix3<f64>;
 
 /// Most elements: those of the cube.
 pub(super) const MOST: usize = 48;
-/// Matrices that differ by less than this in every entry are the same element: what is given
-/// to three digits is made exact.
-const SAME: f64 = 1e-2;
+/// Matrices that differ by less than this in every entry are the same element: of planes that
+/// are given to three digits, and of planes that are found. What they make is made exact.
+pub(super) const GIVEN: f64 = 1e-2;
+pub(super) const FOUND: f64 = 4e-2;
+/// The same of exact elements.
+const SAME: f64 = 1e-6;
 /// Rounds of [`Group::tighten`]: each squares the error.
 const ROUNDS: usize = 4;
 /// Entries closer than this to 0 or ±1 are meant to be that.
@@ -34,6 +37,8 @@ pub(super) struct Kind {
     pub projector: Matrix,
     /// Of an orbit: every ball's place from that of the first, the identity first.
     pub images: Vec<Matrix>,
+    /// The first kind that some element carries into this one.
+    pub class: usize,
     /// Elements that leave the place as it is.
     fixing: Set,
 }
@@ -45,7 +50,6 @@ pub(super) fn mirror(normal: &Vec3) -> Matrix {
     Matrix::identity() - n * n.transpose() * 2.0
 }
 
-#[cfg(test)]
 /// The 48 matrices that exchange the axes and turn them round, the identity first.
 pub(super) fn exchanges() -> Vec<Matrix> {
     let mut all = Vec::with_capacity(MOST);
@@ -62,25 +66,25 @@ pub(super) fn exchanges() -> Vec<Matrix> {
 }
 
 /// The element of `all` that `m` is.
-fn find(all: &[Matrix], m: &Matrix) -> Option<usize> {
-    all.iter().position(|e| (e - m).amax() < SAME)
+fn find(all: &[Matrix], m: &Matrix, same: f64) -> Option<usize> {
+    all.iter().position(|e| (e - m).amax() < same)
 }
 
 impl Group {
     /// The identity alone.
-    #[cfg(test)]
     pub(super) fn trivial() -> Group {
         Group { elements: vec![Matrix::identity()], products: vec![vec![0]] }
     }
 
-    /// What these elements make; none when that is more than [`MOST`].
-    pub(super) fn generated(by: &[Matrix]) -> Option<Group> {
+    /// What these elements make; none when that is more than [`MOST`]. Matrices that differ by less
+    /// than `same` are one.
+    pub(super) fn generated(by: &[Matrix], same: f64) -> Option<Group> {
         let mut elements = vec![Matrix::identity()];
         let mut done = 0;
         while done < elements.len() {
             for g in by {
                 let next = g * elements[done];
-                if find(&elements, &next).is_none() {
+                if find(&elements, &next, same).is_none() {
                     if elements.len() == MOST {
                         return None;
                     }
@@ -92,7 +96,7 @@ impl Group {
         let mut products = Vec::with_capacity(elements.len());
         for x in &elements {
             let row: Option<Vec<u8>> =
-                elements.iter().map(|y| find(&elements, &(x * y)).map(|k| k as u8)).collect();
+                elements.iter().map(|y| find(&elements, &(x * y), same).map(|k| k as u8)).collect();
             products.push(row?);
         }
         let mut group = Group { elements, products };
@@ -152,7 +156,15 @@ impl Group {
         }
     }
 
-    #[cfg(test)]
+    /// The group about other axes, the columns of `axes`.
+    pub(super) fn turned(&self, axes: &Matrix) -> Group {
+        let turn = |m: &Matrix| axes * m * axes.transpose();
+        let elements = self.elements.iter().map(turn).collect();
+        let mut group = Group { elements, products: self.products.clone() };
+        group.tighten();
+        group
+    }
+
     /// The subgroup `set`, as a group.
     pub(super) fn part(&self, set: Set) -> Group {
         let old: Vec<usize> = bits(set).collect();
@@ -166,7 +178,6 @@ impl Group {
         }
     }
 
-    #[cfg(test)]
     /// Subgroups that mirrors make, one of each set of those that the group carries into each
     /// other; the group's own first, if mirrors make it, then by falling number of elements.
     pub(super) fn mirror_parts(&self) -> Vec<Set> {
@@ -188,7 +199,6 @@ impl Group {
         parts
     }
 
-    #[cfg(test)]
     /// The images of a subgroup under all elements.
     fn carried(&self, part: Set) -> impl Iterator<Item = Set> {
         (0..self.len()).map(move |g| {
@@ -219,7 +229,12 @@ impl Group {
             k += 1;
         }
         sets.sort_by_key(|s| s.count_ones());
-        sets.into_iter().map(|fixing| self.kind(fixing)).collect()
+        let mut kinds: Vec<Kind> = sets.iter().map(|&fixing| self.kind(fixing)).collect();
+        for (k, kind) in kinds.iter_mut().enumerate() {
+            let same = |s: &Set| self.carried(*s).any(|q| q == kind.fixing);
+            kind.class = sets.iter().position(same).unwrap_or(k);
+        }
+        kinds
     }
 
     /// The mean of a subgroup's elements: onto what they all leave as it is.
@@ -241,12 +256,12 @@ impl Group {
         for g in &self.elements {
             // Of several with one place, the first.
             let place = g * projector;
-            if find(&places, &place).is_none() {
+            if find(&places, &place, SAME).is_none() {
                 places.push(place);
                 images.push(*g);
             }
         }
-        Kind { projector, images, fixing }
+        Kind { projector, images, class: 0, fixing }
     }
 }
 
@@ -266,7 +281,6 @@ fn bits(set: Set) -> impl Iterator<Item = usize> {
     (0..64).filter(move |i| set >> i & 1 == 1)
 }
 
-#[cfg(test)]
 /// Whether a matrix is the image in a plane: −1 once, +1 twice.
 fn is_mirror(m: &Matrix) -> bool {
     m.determinant() < 0.0 && (m.trace() - 1.0).abs() < SAME
@@ -298,7 +312,7 @@ mod tests {
 
     fn of(normals: &[[f64; 3]]) -> Option<Group> {
         let mirrors: Vec<Matrix> = normals.iter().map(|n| mirror(&Vec3::from(*n))).collect();
-        Group::generated(&mirrors)
+        Group::generated(&mirrors, GIVEN)
     }
 
     #[test]
@@ -324,7 +338,7 @@ mod tests {
                 .iter()
                 .map(|n| mirror(&(turn * (Vec3::from(*n) / Vec3::from(*n).amax()))))
                 .collect();
-            let t = Group::generated(&turned).unwrap();
+            let t = Group::generated(&turned, GIVEN).unwrap();
             assert_eq!((t.len(), t.planes()), (order, planes));
             is_group(&t);
         }
@@ -347,7 +361,7 @@ mod tests {
     #[test]
     fn exchanges_are_a_group() {
         let all = exchanges();
-        let g = Group::generated(&all).unwrap();
+        let g = Group::generated(&all, GIVEN).unwrap();
         assert_eq!((g.len(), g.planes()), (48, 9));
         assert!(g.elements.iter().flat_map(|m| m.iter()).all(|x| [-1.0, 0.0, 1.0].contains(x)));
         // Oh, Td, D4h, D3d has no mirrors of its own; C3v, C4v, D2h twice, C2v twice, Cs twice.
@@ -387,7 +401,11 @@ mod tests {
         };
         assert_eq!(count(&Group::trivial()), [(1, 1)]);
         assert_eq!(count(&of(&[[1.0, 2.0, 0.0]]).unwrap()), [(2, 1), (1, 1)]);
-        let all = Group::generated(&exchanges()).unwrap();
+        let all = Group::generated(&exchanges(), GIVEN).unwrap();
+        let mut classes: Vec<usize> = all.kinds().iter().map(|k| k.class).collect();
+        classes.sort();
+        classes.dedup();
+        assert_eq!(classes.len(), 7);
         assert_eq!(count(&all), [(48, 1), (24, 9), (12, 6), (8, 4), (6, 3), (1, 1)]);
         let cell = of(&[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]).unwrap();
         assert_eq!(count(&cell), [(8, 1), (4, 3), (2, 3), (1, 1)]);

@@ -5,6 +5,9 @@ use super::group::{Group, Kind, Matrix};
 use crate::generate::ball::Ball;
 use crate::math::{Sphere, UnitFrame, Vec3};
 
+/// Fewest columns.
+const COLUMNS: usize = 1000;
+
 /// A group about a centre, unit frame, and the kinds of places that it makes.
 #[derive(Debug, Clone, PartialEq)]
 pub(in super::super) struct Sites {
@@ -12,6 +15,8 @@ pub(in super::super) struct Sites {
     pub(super) kinds: Vec<Kind>,
     /// Number of elements.
     pub(super) order: usize,
+    /// Of the target's whole symmetry.
+    pub(super) found: usize,
 }
 
 /// An orbit: its kind and the numbers of its balls.
@@ -32,8 +37,17 @@ pub(in super::super) struct Orbits<'a> {
 }
 
 impl Sites {
-    pub(super) fn new(group: &Group, centre: Vec3) -> Sites {
-        Sites { centre, kinds: group.kinds(), order: group.len() }
+    pub(in super::super) fn order(&self) -> usize {
+        self.order
+    }
+
+    /// How many columns do as well as `all` do where nothing is the image of anything.
+    pub(in super::super) fn columns(&self, all: usize) -> usize {
+        (all / self.order).max(COLUMNS.min(all))
+    }
+
+    pub(super) fn new(group: &Group, centre: Vec3, found: usize) -> Sites {
+        Sites { centre, kinds: group.kinds(), order: group.len(), found }
     }
 
     /// The place of `kind` that is closest to `p`.
@@ -43,8 +57,16 @@ impl Sites {
 
     /// Image `k` of a ball of that kind.
     pub(super) fn image(&self, kind: usize, k: usize, ball: &Ball) -> Ball {
-        let p = Vec3::from(ball.center.map(f64::from)) - self.centre;
-        let q = self.centre + self.kinds[kind].images[k] * p;
+        self.moved(&self.kinds[kind].images[k], ball)
+    }
+
+    /// The ball of which this is image `k`.
+    fn first(&self, kind: usize, k: usize, ball: &Ball) -> Ball {
+        self.moved(&self.kinds[kind].images[k].transpose(), ball)
+    }
+
+    fn moved(&self, by: &Matrix, ball: &Ball) -> Ball {
+        let q = self.centre + by * (Vec3::from(ball.center.map(f64::from)) - self.centre);
         Ball { center: [0, 1, 2].map(|a| q[a] as f32), ..*ball }
     }
 }
@@ -127,6 +149,20 @@ impl<'a> Orbits<'a> {
             let ball = *ball;
             for (k, &j) in orbit.balls.iter().enumerate().skip(1) {
                 balls[j as usize] = sites.image(orbit.kind, k, &ball);
+            }
+        }
+    }
+
+    /// Changes whole orbits where single balls differ from `before`.
+    pub(in super::super) fn even(&self, before: &[Ball], balls: &mut [Ball]) {
+        let Some(sites) = self.sites else { return };
+        for lead in self.leads(before.len()) {
+            let orbit = &self.orbits[lead as usize];
+            let changed = |&j: &u32| balls[j as usize] != before[j as usize];
+            if let Some(k) = orbit.balls.iter().position(changed) {
+                let ball = balls[orbit.balls[k] as usize];
+                balls[lead as usize] = sites.first(orbit.kind, k, &ball);
+                self.follow(&[lead], balls);
             }
         }
     }

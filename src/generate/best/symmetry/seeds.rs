@@ -6,9 +6,11 @@ use super::super::medial;
 use super::super::random::Random;
 use super::super::seeds::GROWN;
 use super::super::state::Ground;
+use super::group::Kind;
 use super::orbits::{Orbit, Orbits, Sites};
 use crate::error::{Result, reserve};
 use crate::generate::ball::Ball;
+use crate::generate::select::Points;
 use crate::math::Vec3;
 
 /// Fewest points to be covered and fewest candidates.
@@ -38,25 +40,29 @@ pub(in super::super) fn seeds<'a>(
     random: &mut Random,
 ) -> Result<(Vec<Ball>, Orbits<'a>)> {
     let count = |all: usize, least: usize| (all / sites.order).max(least.min(all));
-    let points = Points::new(ground.dexels, count(plan.points, POINTS), random)?;
+    let number = count(plan.points, POINTS);
+    let points = points(sites, ground.dexels, number, random)?;
+    let mut open = vec![u64::MAX; number.div_ceil(64)];
     let mut candidates = Vec::new();
     let starts = ground.dexels.points(count(plan.candidates, CANDIDATES), random)?;
     for p in starts.into_iter().chain([[0, 1, 2].map(|a| sites.centre[a] as f32)]) {
         let ball = medial::ball(ground.field, p, ground.size);
         let center = Vec3::from(ball.center.map(f64::from));
-        for kind in 0..sites.kinds.len() {
-            let off = (sites.fold(kind, &center) - center).norm();
+        let off = |k: usize| (sites.fold(k, &center) - center).norm();
+        for class in 0..sites.kinds.len() {
+            // Of kinds that are carried into each other the closest.
+            let same = (0..sites.kinds.len()).filter(|&k| sites.kinds[k].class == class);
+            let Some(kind) = same.min_by(|&j, &k| off(j).total_cmp(&off(k))) else { continue };
             let Some(ball) = sites.grown(ground, kind, ball.center) else { continue };
-            if off > SNAP * f64::from(ball.radius) {
+            if off(kind) > SNAP * f64::from(ball.radius) {
                 continue;
             }
-            let held = points.held(sites, kind, &ball);
+            let held = sites.held(&points, open.len(), kind, &ball);
             let gain = held.iter().map(|w| w.count_ones()).sum();
             candidates.push(Candidate { ball, kind, held, gain });
         }
     }
     let mut fits = sites.fits(n);
-    let mut open = points.all();
     let mut balls = reserve("balls", n)?;
     let mut orbits = Orbits::new(sites, n);
     let mut put = |kind: usize, ball: Ball, fits: &mut Fits, balls: &mut Vec<Ball>| {
@@ -66,14 +72,16 @@ pub(in super::super) fn seeds<'a>(
         fits.take(kind);
         orbits.set(&Orbit { kind, balls: numbers });
     };
+    let size = |k: &Kind| 1.0 / (k.len() as f64).powf(SIZE);
+    let sizes: Vec<f64> = sites.kinds.iter().map(size).collect();
+    let mut fit: Vec<bool> = (0..sizes.len()).map(|k| fits.fits(k)).collect();
     loop {
         // The gains known are no less than the true ones: the greatest is looked at anew, until
         // one remains the greatest (Minoux 1978).
-        let score =
-            |c: &Candidate| f64::from(c.gain) / (sites.kinds[c.kind].len() as f64).powf(SIZE);
+        let score = |c: &Candidate| f64::from(c.gain) * sizes[c.kind];
         let best = candidates
             .iter_mut()
-            .filter(|c| c.gain > 0 && fits.fits(c.kind))
+            .filter(|c| c.gain > 0 && fit[c.kind])
             .reduce(|a, b| if score(b) > score(a) { b } else { a });
         let Some(best) = best else { break };
         let gain = best.held.iter().zip(&open).map(|(h, o)| (h & o).count_ones()).sum();
@@ -84,6 +92,7 @@ pub(in super::super) fn seeds<'a>(
         put(best.kind, best.ball, &mut fits, &mut balls);
         open.iter_mut().zip(&best.held).for_each(|(o, h)| *o &= !h);
         best.gain = 0;
+        fit.iter_mut().enumerate().for_each(|(k, f)| *f = fits.fits(k));
     }
     // Where all points are held before there are enough: orbits about more of the medial axis.
     while balls.len() < n {
@@ -118,31 +127,29 @@ impl Sites {
     }
 }
 
-/// Points to be covered, by their first coordinate.
-struct Points(Vec<[f32; 3]>);
+/// Lies in no mirror plane and on no axis that anyone would think of.
+const GENERIC: [f64; 3] = [0.521_379, 0.682_813, 0.511_877];
 
-impl Points {
-    fn new(dexels: &Dexels, n: usize, random: &mut Random) -> Result<Points> {
-        let mut all = dexels.points(n, random)?;
-        all.sort_by(|p, q| p[0].total_cmp(&q[0]));
-        Ok(Points(all))
+/// About `n` points to be covered, in chunks of 64: all brought by images to one part of space, as
+/// an orbit holds a point when it holds its images. Most balls of an orbit are far from there.
+fn points(sites: &Sites, dexels: &Dexels, n: usize, random: &mut Random) -> Result<Points> {
+    let mut all = dexels.points(n, random)?;
+    let way = Vec3::from(GENERIC);
+    for point in &mut all {
+        let p = Vec3::from(point.map(f64::from)) - sites.centre;
+        let images = sites.kinds[0].images.iter().map(|m| m * p);
+        let q = images.fold(p, |a, b| if b.dot(&way) > a.dot(&way) { b } else { a });
+        *point = [0, 1, 2].map(|a| (sites.centre[a] + q[a]) as f32);
     }
+    Points::new(vec![all.into_iter().map(|p| (p, 1)).collect()])
+}
 
-    /// A bit for each.
-    fn all(&self) -> Vec<u64> {
-        self.0.chunks(64).map(|c| u64::MAX >> (64 - c.len())).collect()
-    }
-
-    /// Those that any ball of an orbit holds.
-    fn held(&self, sites: &Sites, kind: usize, ball: &Ball) -> Vec<u64> {
-        let mut bits = vec![0; self.0.len().div_ceil(64)];
-        for k in 0..sites.kinds[kind].len() {
-            let Ball { center: [x, y, z], radius } = sites.image(kind, k, ball);
-            let first = self.0.partition_point(|p| p[0] < x - radius);
-            for (i, p) in (first..).zip(&self.0[first..]).take_while(|(_, p)| p[0] <= x + radius) {
-                let d2 = (p[0] - x).powi(2) + (p[1] - y).powi(2) + (p[2] - z).powi(2);
-                bits[i / 64] |= u64::from(d2 <= radius * radius) << (i % 64);
-            }
+impl Sites {
+    /// The points that any ball of an orbit holds.
+    fn held(&self, points: &Points, chunks: usize, kind: usize, ball: &Ball) -> Vec<u64> {
+        let mut bits = vec![0; chunks];
+        for k in 0..self.kinds[kind].len() {
+            points.held(&self.image(kind, k, ball), |c, held| bits[c] |= held);
         }
         bits
     }
