@@ -296,3 +296,25 @@ fn surfaces_come_closer_for_some_mismatch() {
         }
     }
 }
+
+#[test]
+fn a_greatest_protrusion_is_used_to_the_full() {
+    for name in ["ellipsoid", "stone", "tablet"] {
+        let solid = solid(name);
+        let tolerance = 0.01 * solid.moments().volume.cbrt();
+        let best = BestOptions { max_protrusion: tolerance, ..BestOptions::default() };
+        let clump = make(&solid, 24, &best);
+        let reach = reach(&solid, &clump);
+        assert!(reach > 0.95 * tolerance, "{name}: {reach} of {tolerance}");
+        // As close as clumps whose radii are all as large as they may be.
+        let method = Method::Inscribed;
+        let full = GenerateOptions {
+            method,
+            tolerance,
+            ..ask(24, Effort::Normal, BestOptions::default())
+        };
+        let full = overlap(&solid, &generate(&solid, &full, &Run::serial()).unwrap()).mismatch;
+        let d = overlap(&solid, &clump).mismatch;
+        assert!(d < 1.05 * full, "{name}: {d} {full}");
+    }
+}

@@ -51,20 +51,21 @@ fn unit(normal: &Vec3, offset: f64) -> (Vec3, f64) {
 }
 
 /// What balls keep within while the clump is looked for.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Limits {
+#[derive(Clone, Default)]
+pub(super) struct Limits<'a> {
     planes: Vec<([f32; 3], f32)>,
-    /// How far beyond the surface.
-    protrusion: Option<f32>,
+    /// How far beyond the surface. The exact distance: the field is less deep than the body where
+    /// medial balls have their centres, by up to half a cell.
+    protrusion: Option<(f32, &'a Surface)>,
 }
 
-impl Limits {
-    /// `protrusion`: in the unit frame; 0: any.
-    pub(super) fn new(planes: &[Plane], protrusion: f64) -> Limits {
+impl<'a> Limits<'a> {
+    /// `protrusion`: in the unit frame, if any.
+    pub(super) fn new(planes: &[Plane], protrusion: Option<(f64, &'a Surface)>) -> Limits<'a> {
         let single = |p: &Plane| ([0, 1, 2].map(|a| p.normal[a] as f32), p.offset as f32);
         Limits {
             planes: planes.iter().map(single).collect(),
-            protrusion: (protrusion > 0.0).then_some(protrusion.min(FAR) as f32),
+            protrusion: protrusion.map(|(most, surface)| (most.min(FAR) as f32, surface)),
         }
     }
 
@@ -81,10 +82,21 @@ impl Limits {
             let at = normal[0] * x + normal[1] * y + normal[2] * z;
             f(ball, *normal, at + ball.radius - offset);
         }
-        if let Some(most) = self.protrusion {
+        if let Some((most, surface)) = self.protrusion {
+            let p = Vec3::from(ball.center.map(f64::from));
+            // The field is right to a part of a cell.
+            let rough = field.one(ball.center);
+            let about = f64::from(rough.abs() + field.cell());
+            let nearest = surface.nearest_within(&p, about).unwrap_or_else(|| surface.nearest(&p));
+            let sure = rough.abs() > field.cell();
+            let inside = if sure { rough < 0.0 } else { surface.contains(&p) };
+            let sign = if inside { -1.0 } else { 1.0 };
+            let way = p - nearest.point;
+            let norm = way.norm();
+            let slope = if norm > 0.0 { way * (sign / norm) } else { nearest.normal };
             // No point of the ball is farther beyond the surface than its centre is, and a radius.
-            let excess = field.one(ball.center) + ball.radius - most;
-            f(ball, field.slope(ball.center), excess);
+            let excess = (sign * nearest.distance) as f32 + ball.radius - most;
+            f(ball, [0, 1, 2].map(|a| slope[a] as f32), excess);
         }
     }
 

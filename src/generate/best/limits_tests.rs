@@ -18,7 +18,8 @@ fn planes() -> Vec<Plane> {
 fn balls_are_held_within_by_small_changes() {
     for body in bodies() {
         let field = Field::new(body.solid.grid(), &body.distance, &Pool::serial()).unwrap();
-        let limits = Limits::new(&planes(), 0.02);
+        let limits =
+            Limits::new(&planes(), Some((0.02, body.solid.surface(&Run::serial()).unwrap())));
         let radii = Radii { least: 0.01, most: f32::MAX };
         let mut random = Random::new(4, 4);
         let (mut all, mut small, mut beyond) = (0, 0, 0);
@@ -73,7 +74,7 @@ fn slow(m: &[[f64; 4]; 4], b: &[f64; 4], rows: &[([f64; 4], f64)]) -> [f64; 4] {
 fn steps_are_the_least_within_the_limits() {
     let body = &bodies()[0];
     let field = Field::new(body.solid.grid(), &body.distance, &Pool::serial()).unwrap();
-    let limits = Limits::new(&planes(), 0.02);
+    let limits = Limits::new(&planes(), Some((0.02, body.solid.surface(&Run::serial()).unwrap())));
     let mut random = Random::new(9, 1);
     let mut bound = 0;
     for _ in 0..200 {

@@ -85,7 +85,11 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let most = most.min(f64::from(f32::MAX)) as f32;
     let least = (LEAST * size).max(options.min_radius / frame.scale) as f32;
     let radii = Radii { least: least.min(most), most };
-    let limits = Limits::new(&planes, asked.max_protrusion / frame.scale);
+    let protrusion = match asked.max_protrusion {
+        0.0 => None,
+        most => Some((most / frame.scale, solid.surface(run)?)),
+    };
+    let limits = Limits::new(&planes, protrusion);
     let least = 0.5 * f64::from(radii.least) * frame.scale;
     let exact = Exact::new(solid, asked, [options.min_radius, least], run)?;
     let overshoot = asked.overshoot_weight;

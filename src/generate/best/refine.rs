@@ -47,7 +47,7 @@ pub(super) struct Task<'a> {
     pub directions: &'a Directions,
     pub weights: Weights,
     pub radii: Radii,
-    pub limits: &'a Limits,
+    pub limits: &'a Limits<'a>,
     pub orbits: &'a Orbits<'a>,
     /// What draws balls beside the volumes.
     pub pull: Option<Pull<'a>>,

@@ -23,7 +23,7 @@ pub(super) struct Ground<'a> {
     pub field: &'a Field,
     pub dexels: &'a Dexels,
     pub radii: Radii,
-    pub limits: &'a Limits,
+    pub limits: &'a Limits<'a>,
     /// How many times clump beyond the target counts.
     pub overshoot: f64,
     /// Whether the clump must hang together.
