@@ -249,13 +249,13 @@
 /// Spheres about the cells of the grid, those that cover most first (Garcia; Li, Xu and Meng).
 #define MORULA_METHOD_UNIFORM_GRID 13
 
-/// MORULA_METHOD_BEST: milliseconds.
+/// MORULA_METHOD_BEST and MORULA_METHOD_INSCRIBED: milliseconds.
 #define MORULA_EFFORT_DRAFT 0
 
-/// MORULA_METHOD_BEST: about a tenth of a second for a hundred spheres (the default).
+/// Of the same: about a tenth of a second for a hundred spheres (the default).
 #define MORULA_EFFORT_NORMAL 1
 
-/// MORULA_METHOD_BEST: seconds.
+/// Of the same: seconds.
 #define MORULA_EFFORT_THOROUGH 2
 
 /// MORULA_METHOD_BEST: no symmetry but by chance (the default).
@@ -547,13 +547,16 @@ typedef struct morula_solid_options {
 
 /// What a clump is asked for. Fill it with morula_clump_options_init(). The
 /// criteria (spheres, mismatch, min_radius, deadline_seconds) apply alone or
-/// together: the first that is met stops the method.
+/// together: the first that is met stops the method. MORULA_METHOD_BEST, which
+/// makes all spheres at once, looks for the fewest that have the mismatch, and
+/// keeps all radii at min_radius or more.
 typedef struct morula_clump_options {
   /// sizeof(morula_clump_options).
   size_t struct_size;
   /// Number of spheres; 0: no limit. Default 50.
   uint64_t spheres;
-  /// Stop at this mismatch D on the method's own grid; 0: no target. Default 0.
+  /// Stop at this mismatch D (on the method's own grid, but for MORULA_METHOD_BEST: as
+  /// morula_clump_overlap() has it); 0: no target. Default 0.
   double mismatch;
   /// Least radius, in the caller's unit. Default 0.
   double min_radius;
@@ -1262,7 +1265,8 @@ int32_t morula_clump_from_shape(const struct morula_shape *shape,
 /// Returns: MORULA_STATUS_OK, also when the deadline passed or the callback
 /// cancelled after there were spheres (ask morula_clump_stopped());
 /// NULL_POINTER; INVALID_ARGUMENT (an option); STRUCT_SIZE; CANCELLED (before
-/// there was a sphere); NO_SPHERES; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
+/// there was a sphere); NO_SPHERES; ZERO_VOLUME (half-spaces that leave nothing of the body);
+/// UNSUPPORTED; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
 /// Ownership: the solid stays the caller's and may be freed at once; free
 /// *clump with morula_clump_free(). *clump is written only on success.
 /// Threads: any thread; the solid is only read. The same bytes come out for any
@@ -1281,7 +1285,8 @@ void morula_clump_free(struct morula_clump *clump);
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_clump_sphere_count(const struct morula_clump *clump, size_t *count);
 
-/// Copies the spheres, in the order in which the method chose them.
+/// Copies the spheres, in the order in which the method chose them, or by falling radius where it
+/// makes all at once.
 ///
 /// Parameters: `xyzr` has room for `capacity` spheres of four numbers each: x,
 /// y, z and radius, in the caller's unit and in the frame that the options
@@ -1304,8 +1309,9 @@ int32_t morula_clump_stopped(const struct morula_clump *clump, int32_t *stopped)
 /// Threads: any thread at any time. Never fails.
 const char *morula_stopped_name(int32_t stopped);
 
-/// Copies the clump's note with its closing NUL: one sentence when fewer
-/// spheres came than were asked for, else empty.
+/// Copies the clump's note with its closing NUL: what is to be
+/// said of it (fewer spheres than were asked for, a deadline, a demand that could not be met), else
+/// empty.
 ///
 /// Parameters: `text` has room for `capacity` bytes; `length` (may be NULL)
 /// becomes the length without the NUL. With `text` NULL and `capacity` 0 only

@@ -459,7 +459,8 @@ class Clump {
     check(morula_clump_stopped(get(), &stopped));
     return stopped;
   }
-  /// Why there are fewer spheres than were asked for; else empty.
+  /// What is to be said of it: fewer spheres than were asked for, a deadline, a demand that could
+  /// not be met; else empty.
   std::string note() const {
     return detail::text([&](std::size_t capacity, char *to, std::size_t *length) {
       return morula_clump_copy_note(get(), capacity, to, length);

@@ -41,12 +41,13 @@ impl Stopped {
 /// A clump.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clump {
-    /// Component spheres in the caller's frame, in the order in which the method chose them.
+    /// Component spheres in the caller's frame, in the order in which the method chose them, or
+    /// by falling radius where it makes all at once.
     pub spheres: Vec<Sphere>,
     /// Why the method stopped.
     pub stopped: Stopped,
-    /// One sentence when fewer spheres came than were asked for, or a demand is kept in part; else
-    /// empty.
+    /// What is to be said of it: fewer spheres than were asked for, a deadline, a demand that could not
+    /// be met; else empty.
     pub note: String,
     /// Quality, when it was wanted.
     pub quality: Option<Quality>,

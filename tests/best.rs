@@ -114,7 +114,7 @@ fn radii_stay_above_the_least() {
     let o = GenerateOptions { min_radius: 0.11, ..ask(40, Effort::Normal) };
     let clump = generate(&solid, &o, &Run::serial()).unwrap();
     assert_eq!(clump.spheres.len(), 40);
-    assert!(clump.spheres.iter().all(|s| s.radius >= 0.11 * (1.0 - 1e-6)));
+    assert!(clump.spheres.iter().all(|s| s.radius >= 0.11));
     let o = GenerateOptions { min_radius: 0.7, ..ask(1, Effort::Draft) };
     assert!(matches!(generate(&solid, &o, &Run::serial()), Err(Error::NoSpheres(_))));
 }

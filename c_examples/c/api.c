@@ -42,6 +42,7 @@ static void whole_road(const morula_shape *read_from_file) {
 
   OK(morula_clump_options_init(&options, sizeof options));
   options.spheres = 3;
+  options.method = MORULA_METHOD_MSS;
   options.wants = MORULA_WANT_NOTHING;
   OK(morula_clump_from_solid(solid, &options, &clump));
   OK(morula_clump_counters(clump, &clumps));

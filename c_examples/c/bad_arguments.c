@@ -270,7 +270,34 @@ static void handles(void) {
   STATUS(morula_clump_from_solid(solid, NULL, NULL), MORULA_STATUS_NULL_POINTER);
   const double tolerance[1] = {-1};
   for (int i = 0; i < 14; i++) {
+    /* What clumps of best must keep to. */
+  for (int i = 0; i < 12; i++) {
+    double planes[8] = {0, 0, 1, 9, 1, 0, 0, 99};
     morula_clump_options o;
+    OK(morula_clump_options_init(&o, sizeof o));
+    int32_t expected = MORULA_STATUS_INVALID_ARGUMENT;
+    o.spheres = 2;
+    o.half_spaces = planes;
+    o.half_space_count = 2;
+    switch (i) {
+      case 0: planes[5] = NAN; break;
+      case 1: planes[4] = planes[5] = planes[6] = 0; break;
+      case 2: planes[7] = INFINITY; break;
+      case 3: o.half_spaces = NULL; expected = MORULA_STATUS_NULL_POINTER; break;
+      case 4: o.max_radius = NAN; break;
+      case 5: o.max_radius = 1e-300; expected = MORULA_STATUS_NO_SPHERES; break;
+      case 6: o.overshoot_weight = 0; break;
+      case 7: o.overshoot_weight = 1e39; break;
+      case 8: o.max_protrusion = -1; break;
+      case 9: o.connected = 2; break;
+      case 10: o.symmetry = 7; break;
+      case 11: o.symmetry_plane_count = 1; break;
+    }
+    STATUS(morula_clump_from_solid(solid, &o, &clump), expected);
+  }
+  CHECK(clump == NULL);
+
+  morula_clump_options o;
     int32_t expected = MORULA_STATUS_INVALID_ARGUMENT;
     OK(morula_clump_options_init(&o, sizeof o));
     switch (i) {
@@ -283,8 +310,8 @@ static void handles(void) {
       case 6: o.threads = -1; break;
       case 7: o.mismatch = NAN; break;
       case 8: o.min_radius = -1; break;
-      case 9: o.min_distance = INFINITY; break;
-      case 10: o.radius_offset = NAN; break;
+      case 9: o.method = MORULA_METHOD_MSS; o.min_distance = INFINITY; break;
+      case 10: o.method = MORULA_METHOD_MSS; o.radius_offset = NAN; break;
       case 11: o.spheres = 0; break;
       case 12: o.plane_tolerances = tolerance; o.plane_tolerance_count = 1; break;
       case 13: o.plane_tolerance_count = 1; expected = MORULA_STATUS_NULL_POINTER; break;
@@ -301,6 +328,7 @@ static void handles(void) {
     OK(morula_clump_options_init(&huge, sizeof huge));
     huge.method = MORULA_METHOD_MSS;
     huge.spheres = 2;
+    huge.method = MORULA_METHOD_MSS;
     huge.radius_offset = offsets[i / 3];
     huge.wants = wants[i % 3];
     /* The volume is refused where no column meets both, the surface where numbers end. */

@@ -99,11 +99,11 @@ pub const MORULA_METHOD_FAVIER: i32 = 12;
 /// Spheres about the cells of the grid, those that cover most first (Garcia; Li, Xu and Meng).
 pub const MORULA_METHOD_UNIFORM_GRID: i32 = 13;
 
-/// MORULA_METHOD_BEST: milliseconds.
+/// MORULA_METHOD_BEST and MORULA_METHOD_INSCRIBED: milliseconds.
 pub const MORULA_EFFORT_DRAFT: i32 = 0;
-/// MORULA_METHOD_BEST: about a tenth of a second for a hundred spheres (the default).
+/// Of the same: about a tenth of a second for a hundred spheres (the default).
 pub const MORULA_EFFORT_NORMAL: i32 = 1;
-/// MORULA_METHOD_BEST: seconds.
+/// Of the same: seconds.
 pub const MORULA_EFFORT_THOROUGH: i32 = 2;
 
 /// MORULA_METHOD_BEST: no symmetry but by chance (the default).

@@ -8,7 +8,7 @@ use super::shape::{morula_shape, reserved};
 use super::solid::{build, morula_solid};
 use super::structs::*;
 use crate::clump::Clump;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, collected};
 use crate::generate::cover::{Candidates, CoverOptions, Ends};
 use crate::generate::{
     BestOptions, Effort, GenerateOptions, HalfSpace, Method, Symmetry, generate,
@@ -55,6 +55,13 @@ unsafe fn rows<'a, const N: usize>(
     unsafe { slice(pointer.cast::<[f64; N]>(), count, name) }
 }
 
+unsafe fn half_spaces(o: &morula_clump_options) -> Result<Vec<HalfSpace>> {
+    let all = unsafe { rows::<4>(o.half_spaces, o.half_space_count, "half_spaces")? };
+    let each =
+        all.iter().map(|&[x, y, z, offset]| HalfSpace { normal: Vec3::new(x, y, z), offset });
+    collected("half-spaces", each)
+}
+
 unsafe fn symmetry(o: &morula_clump_options) -> Result<Symmetry> {
     let count = o.symmetry_plane_count as usize;
     if o.symmetry != MORULA_SYMMETRY_PLANES && count > 0 {
@@ -67,7 +74,8 @@ unsafe fn symmetry(o: &morula_clump_options) -> Result<Symmetry> {
         MORULA_SYMMETRY_AUTO => Ok(Symmetry::Auto),
         MORULA_SYMMETRY_PLANES => {
             let normals = unsafe { rows::<3>(o.symmetry_planes, count, "symmetry_planes")? };
-            Ok(Symmetry::Planes(normals.iter().map(|n| Vec3::from(*n)).collect()))
+            let normals = normals.iter().map(|n| Vec3::from(*n));
+            Ok(Symmetry::Planes(collected("symmetry planes", normals)?))
         }
         other => Err(Error::InvalidArgument(format!("symmetry is {other}, no choice"))),
     }
@@ -118,10 +126,7 @@ pub(super) unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<(
         overshoot_weight: o.overshoot_weight,
         max_protrusion: o.max_protrusion,
         max_radius: o.max_radius,
-        half_spaces: unsafe { rows::<4>(o.half_spaces, o.half_space_count, "half_spaces")? }
-            .iter()
-            .map(|&[x, y, z, offset]| HalfSpace { normal: Vec3::new(x, y, z), offset })
-            .collect(),
+        half_spaces: unsafe { half_spaces(&o)? },
         connected: yes("connected", o.connected)?,
         equal_volume: yes("equal_volume", o.equal_volume)?,
         smoothness: o.smoothness,
@@ -287,7 +292,8 @@ pub unsafe extern "C" fn morula_clump_from_shape(
 /// Returns: MORULA_STATUS_OK, also when the deadline passed or the callback
 /// cancelled after there were spheres (ask morula_clump_stopped());
 /// NULL_POINTER; INVALID_ARGUMENT (an option); STRUCT_SIZE; CANCELLED (before
-/// there was a sphere); NO_SPHERES; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
+/// there was a sphere); NO_SPHERES; ZERO_VOLUME (half-spaces that leave nothing of the body);
+/// UNSUPPORTED; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
 /// Ownership: the solid stays the caller's and may be freed at once; free
 /// *clump with morula_clump_free(). *clump is written only on success.
 /// Threads: any thread; the solid is only read. The same bytes come out for any

@@ -38,7 +38,8 @@ pub unsafe extern "C" fn morula_clump_sphere_count(
     })
 }
 
-/// Copies the spheres, in the order in which the method chose them.
+/// Copies the spheres, in the order in which the method chose them, or by falling radius where it
+/// makes all at once.
 ///
 /// Parameters: `xyzr` has room for `capacity` spheres of four numbers each: x,
 /// y, z and radius, in the caller's unit and in the frame that the options
@@ -106,8 +107,9 @@ pub extern "C" fn morula_stopped_name(stopped: i32) -> *const c_char {
     name.as_ptr()
 }
 
-/// Copies the clump's note with its closing NUL: one sentence when fewer
-/// spheres came than were asked for, else empty.
+/// Copies the clump's note with its closing NUL: what is to be
+/// said of it (fewer spheres than were asked for, a deadline, a demand that could not be met), else
+/// empty.
 ///
 /// Parameters: `text` has room for `capacity` bytes; `length` (may be NULL)
 /// becomes the length without the NUL. With `text` NULL and `capacity` 0 only

@@ -92,7 +92,9 @@ pub struct morula_solid_options {
 
 /// What a clump is asked for. Fill it with morula_clump_options_init(). The
 /// criteria (spheres, mismatch, min_radius, deadline_seconds) apply alone or
-/// together: the first that is met stops the method.
+/// together: the first that is met stops the method. MORULA_METHOD_BEST, which
+/// makes all spheres at once, looks for the fewest that have the mismatch, and
+/// keeps all radii at min_radius or more.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct morula_clump_options {
@@ -100,7 +102,8 @@ pub struct morula_clump_options {
     pub struct_size: usize,
     /// Number of spheres; 0: no limit. Default 50.
     pub spheres: u64,
-    /// Stop at this mismatch D on the method's own grid; 0: no target. Default 0.
+    /// Stop at this mismatch D (on the method's own grid, but for MORULA_METHOD_BEST: as
+    /// morula_clump_overlap() has it); 0: no target. Default 0.
     pub mismatch: f64,
     /// Least radius, in the caller's unit. Default 0.
     pub min_radius: f64,

@@ -71,7 +71,8 @@ pub struct GenerateOptions {
     pub method: Method,
     /// Number of spheres; 0: no limit (then another criterion must be given).
     pub spheres: usize,
-    /// Stop at this mismatch D on the method's own grid; 0: no target.
+    /// Stop at this mismatch D (on the method's own grid, but for [`Method::Best`]: as the quality
+    /// figures have it); 0: no target.
     pub mismatch: f64,
     /// Least radius, in the caller's unit.
     pub min_radius: f64,

@@ -24,6 +24,7 @@ pub(in crate::generate) fn make(
     options: &GenerateOptions,
     run: &Run,
 ) -> Result<Clump> {
+    super::check(options)?;
     let ball = (0.75 / std::f64::consts::PI * solid.unit_moments().volume).cbrt();
     if options.min_radius / solid.frame().scale > ball {
         return Err(Error::NoSpheres(format!(
@@ -101,6 +102,12 @@ impl Search<'_, '_> {
             n = n.saturating_mul(2).min(most);
         }
         let mut good = at(n, effort)?;
+        // What a draft reaches by luck more work may not: a little more then.
+        while !good.late() && good.d > goal && n < most {
+            low = n;
+            n = (n + n / 4 + 1).min(most);
+            good = at(n, effort)?;
+        }
         if good.late() || good.d > goal {
             return Ok(self.told(good));
         }

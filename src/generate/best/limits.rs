@@ -232,7 +232,7 @@ impl<'a> Exact<'a> {
 
     /// Whether there are any.
     pub(super) fn none(&self) -> bool {
-        self.planes.is_empty() && self.protrusion.is_none() && self.most == 0.0
+        self.planes.is_empty() && self.protrusion.is_none() && [self.most, self.asked] == [0.0; 2]
     }
 
     /// The greatest radius that a sphere about `center` may have, where none is too large; less

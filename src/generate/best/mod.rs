@@ -42,7 +42,7 @@ pub use options::{BestOptions, HalfSpace, Symmetry};
 
 use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, figure};
 use crate::math::Vec3;
 use crate::run::Run;
 use crate::shape::Body;
@@ -81,6 +81,12 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     });
     // The length for which the widths were found: a body of a fifth of its box's cube has 1.
     let size = (volume / 0.2).cbrt();
+    if asked.max_radius > 0.0 && asked.max_radius / frame.scale < LEAST * size {
+        return Err(Error::NoSpheres(format!(
+            "max_radius is {}, less than {LEAST} of the body's size",
+            figure(asked.max_radius)
+        )));
+    }
     let most = if asked.max_radius > 0.0 { asked.max_radius / frame.scale } else { f64::MAX };
     let most = most.min(f64::from(f32::MAX)) as f32;
     let least = (LEAST * size).max(options.min_radius / frame.scale) as f32;

@@ -28,6 +28,9 @@ pub enum Symmetry {
     Planes(Vec<Vec3>),
 }
 
+/// Above it, a weight leaves nothing of the rest to single precision.
+const MOST_WEIGHT: f64 = 1e6;
+
 /// Demands on a clump. The defaults demand nothing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BestOptions {
@@ -81,6 +84,16 @@ impl BestOptions {
                 return Err(Error::InvalidArgument(format!(
                     "{name} is {}, not a number ≥ 0",
                     figure(value)
+                )));
+            }
+        }
+        for (name, weight) in
+            [("overshoot_weight", self.overshoot_weight), ("smoothness", self.smoothness)]
+        {
+            if weight > MOST_WEIGHT {
+                return Err(Error::InvalidArgument(format!(
+                    "{name} is {}, more than {MOST_WEIGHT}",
+                    figure(weight)
                 )));
             }
         }
@@ -152,6 +165,11 @@ mod tests {
             refused(&BestOptions { overshoot_weight: bad, ..o.clone() }, &["overshoot_weight"]);
         }
         refused(&BestOptions { overshoot_weight: 0.0, ..o.clone() }, &["overshoot_weight is 0"]);
+        refused(
+            &BestOptions { overshoot_weight: 1e39, ..o.clone() },
+            &["overshoot_weight is 1e39"],
+        );
+        refused(&BestOptions { smoothness: 1e39, ..o.clone() }, &["smoothness is 1e39"]);
         refused(&BestOptions { max_radius: 0.05, ..o.clone() }, &["0.05", "min_radius 0.1"]);
         let plane = HalfSpace { normal: Vec3::z(), offset: 1.0 };
         let with = |h| BestOptions { half_spaces: vec![plane, h], ..o.clone() };

@@ -123,7 +123,10 @@ pub(super) fn cover(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resu
 }
 
 fn check(o: &GenerateOptions) -> Result<()> {
-    for (name, value) in [("min_distance", o.min_distance), ("radius_offset", o.radius_offset)] {
+    let confine = f64::from(u8::from(o.confine));
+    for (name, value) in
+        [("min_distance", o.min_distance), ("radius_offset", o.radius_offset), ("confine", confine)]
+    {
         if value != 0.0 {
             return Err(Error::InvalidArgument(format!(
                 "{name} is an option of the method mss, not of cover"
