@@ -66,16 +66,12 @@ else:
         else:
             note(f"{name} is not in {root.name}")
 
-# What others reach: D and spheres by shape.
-known = {}
-table = root.parent.parent / "peers" / "results.csv" if root else None
-if table and table.exists():
-    with open(table, newline="") as f:
-        for r in csv.DictReader(f):
-            if r["status"] == "ok" and r["D"]:
-                known.setdefault(r["shape"], []).append((float(r["D"]), int(r["n_got"]), r["peer"]))
-else:
-    note("no table of other programs' figures (../peers/results.csv beside the data)")
+# The least D of seven other programs with n spheres or fewer, measured once on the same meshes.
+others = {}
+with open(here / "others.csv", newline="") as f:
+    for r in csv.DictReader(f):
+        others[r["shape"], int(r["n"])] = (float(r["D"]), int(r["spheres"]), r["program"])
+# What a prototype of the method found with two seconds for each clump.
 study = {}
 with open(here / "study.csv", newline="") as f:
     for r in csv.DictReader(f):
@@ -84,7 +80,7 @@ with open(here / "study.csv", newline="") as f:
 
 def best_peer(shape, n):
     """The least D of any other program with n spheres or fewer."""
-    return min((d for d in known.get(shape, []) if d[1] <= n), default=None)
+    return others.get((shape, n))
 
 
 def children():
@@ -167,14 +163,14 @@ def demand(met, text):
 
 # The nine cells that must be reached, and what the peers need for them in the same run.
 peer_runs = {}
-python = os.environ.get("MORULA_PEERS_PYTHON", sys.executable)
+python = os.environ.get("MORULA_PEER_PYTHON", sys.executable)
 if root and run_peers:
     for package in sorted(set(PACKAGES.values())):
         there = subprocess.run([python, "-c", f"import {package}, trimesh"], capture_output=True)
         if there.returncode:
             pip = {"CLUMP": "clump-python"}.get(package, package)
             note(f"the PyPI package {pip} is not installed for {python}: its programs are not run "
-                 "(MORULA_PEERS_PYTHON names another interpreter)")
+                 "(MORULA_PEER_PYTHON names another interpreter)")
             PEERS = tuple(p for p in PEERS if PACKAGES[p] != package)
 elif not run_peers:
     PEERS = ()

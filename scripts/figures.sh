@@ -1,6 +1,6 @@
 #!/bin/sh
 # The figures of the method best, and the picture at the top of the README.
-#   [MORULA_DATA=<data folder>] [MORULA_PEERS_PYTHON=<python>] sh scripts/figures.sh [--full] [--no-peers]
+#   [MORULA_DATA=<data folder>] [MORULA_PEER_PYTHON=<python>] sh scripts/figures.sh [--full] [--no-peers]
 # Writes docs/best_figures.md, docs/best_figures.csv and docs/stone.png; names what is missing and goes on
 # (numpy, the data, the programs of others). --full: effort thorough as well, some minutes more.
 # Ends with 1 where a demand is not met.
@@ -19,7 +19,7 @@ morula=${CARGO_TARGET_DIR:-target}/release/morula
 
 # The evaluator wants numpy: the peers' interpreter has it as well.
 python=python3
-peers=${MORULA_PEERS_PYTHON:-}
+peers=${MORULA_PEER_PYTHON:-}
 if [ -n "$peers" ] && ! python3 -c 'import numpy' 2>/dev/null && "$peers" -c 'import numpy' 2>/dev/null; then
     python=$peers
 fi

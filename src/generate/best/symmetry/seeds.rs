@@ -8,7 +8,7 @@ use super::super::seeds::GROWN;
 use super::super::state::Ground;
 use super::group::Kind;
 use super::orbits::{Orbit, Orbits, Sites};
-use crate::error::{Result, reserve};
+use crate::error::{Result, filled, push, reserve};
 use crate::generate::ball::Ball;
 use crate::generate::select::Points;
 use crate::math::Vec3;
@@ -18,6 +18,8 @@ const POINTS: usize = 500;
 const CANDIDATES: usize = 150;
 /// Of its radius: how far a ball may be from a plane, line or point to be tried on it as well.
 const SNAP: f64 = 1.0;
+/// Bytes that candidates may take together for what they hold.
+const HELD: usize = 64 << 20;
 /// What an orbit covers is divided by its number of balls to this power.
 const SIZE: f64 = 0.9;
 
@@ -42,9 +44,12 @@ pub(in super::super) fn seeds<'a>(
     let count = |all: usize, least: usize| (all / sites.order).max(least.min(all));
     let number = count(plan.points, POINTS);
     let points = points(sites, ground.dexels, number, random)?;
-    let mut open = vec![u64::MAX; number.div_ceil(64)];
+    let mut open = filled("points", number.div_ceil(64), u64::MAX)?;
     let mut candidates = Vec::new();
-    let starts = ground.dexels.points(count(plan.candidates, CANDIDATES), random)?;
+    // Each candidate of each kind keeps a bit for each point.
+    let each = 8 * open.len() * sites.kinds.len();
+    let starts = count(plan.candidates, CANDIDATES).min(HELD / each.max(1)).max(1);
+    let starts = ground.dexels.points(starts, random)?;
     for p in starts.into_iter().chain([[0, 1, 2].map(|a| sites.centre[a] as f32)]) {
         let ball = medial::ball(ground.field, p, ground.size);
         let center = Vec3::from(ball.center.map(f64::from));
@@ -57,9 +62,9 @@ pub(in super::super) fn seeds<'a>(
             if off(kind) > SNAP * f64::from(ball.radius) {
                 continue;
             }
-            let held = sites.held(&points, open.len(), kind, &ball);
+            let held = sites.held(&points, open.len(), kind, &ball)?;
             let gain = held.iter().map(|w| w.count_ones()).sum();
-            candidates.push(Candidate { ball, kind, held, gain });
+            push("candidates", &mut candidates, Candidate { ball, kind, held, gain })?;
         }
     }
     let mut fits = sites.fits(n);
@@ -146,12 +151,12 @@ fn points(sites: &Sites, dexels: &Dexels, n: usize, random: &mut Random) -> Resu
 
 impl Sites {
     /// The points that any ball of an orbit holds.
-    fn held(&self, points: &Points, chunks: usize, kind: usize, ball: &Ball) -> Vec<u64> {
-        let mut bits = vec![0; chunks];
+    fn held(&self, points: &Points, chunks: usize, kind: usize, ball: &Ball) -> Result<Vec<u64>> {
+        let mut bits = filled("points that an orbit holds", chunks, 0u64)?;
         for k in 0..self.kinds[kind].len() {
             points.held(&self.image(kind, k, ball), |c, held| bits[c] |= held);
         }
-        bits
+        Ok(bits)
     }
 }
 
