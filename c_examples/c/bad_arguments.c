@@ -270,9 +270,32 @@ static void handles(void) {
   STATUS(morula_clump_from_solid(solid, NULL, NULL), MORULA_STATUS_NULL_POINTER);
   const double tolerance[1] = {-1};
   for (int i = 0; i < 14; i++) {
-    /* What clumps of best must keep to. */
+    morula_clump_options o;
+    int32_t expected = MORULA_STATUS_INVALID_ARGUMENT;
+    OK(morula_clump_options_init(&o, sizeof o));
+    switch (i) {
+      case 0: o.method = 99; break;
+      case 1: o.confine = 2; break;
+      case 2: o.frame = 2; break;
+      case 3: o.wants = 1u << 31; break;
+      case 4: o.deadline_seconds = -1; break;
+      case 5: o.deadline_seconds = NAN; break;
+      case 6: o.threads = -1; break;
+      case 7: o.mismatch = NAN; break;
+      case 8: o.min_radius = -1; break;
+      case 9: o.method = MORULA_METHOD_MSS; o.min_distance = INFINITY; break;
+      case 10: o.method = MORULA_METHOD_MSS; o.radius_offset = NAN; break;
+      case 11: o.spheres = 0; break;
+      case 12: o.plane_tolerances = tolerance; o.plane_tolerance_count = 1; break;
+      case 13: o.plane_tolerance_count = 1; expected = MORULA_STATUS_NULL_POINTER; break;
+    }
+    STATUS(morula_clump_from_solid(solid, &o, &clump), expected);
+  }
+  CHECK(clump == NULL);
+
+  /* What clumps of best must keep to. */
   for (int i = 0; i < 12; i++) {
-    double planes[8] = {0, 0, 1, 9, 1, 0, 0, 99};
+    double planes[8] = {0, 0, 1, 999, 1, 0, 0, 99};
     morula_clump_options o;
     OK(morula_clump_options_init(&o, sizeof o));
     int32_t expected = MORULA_STATUS_INVALID_ARGUMENT;
@@ -297,36 +320,12 @@ static void handles(void) {
   }
   CHECK(clump == NULL);
 
-  morula_clump_options o;
-    int32_t expected = MORULA_STATUS_INVALID_ARGUMENT;
-    OK(morula_clump_options_init(&o, sizeof o));
-    switch (i) {
-      case 0: o.method = 99; break;
-      case 1: o.confine = 2; break;
-      case 2: o.frame = 2; break;
-      case 3: o.wants = 1u << 31; break;
-      case 4: o.deadline_seconds = -1; break;
-      case 5: o.deadline_seconds = NAN; break;
-      case 6: o.threads = -1; break;
-      case 7: o.mismatch = NAN; break;
-      case 8: o.min_radius = -1; break;
-      case 9: o.method = MORULA_METHOD_MSS; o.min_distance = INFINITY; break;
-      case 10: o.method = MORULA_METHOD_MSS; o.radius_offset = NAN; break;
-      case 11: o.spheres = 0; break;
-      case 12: o.plane_tolerances = tolerance; o.plane_tolerance_count = 1; break;
-      case 13: o.plane_tolerance_count = 1; expected = MORULA_STATUS_NULL_POINTER; break;
-    }
-    STATUS(morula_clump_from_solid(solid, &o, &clump), expected);
-  }
-  CHECK(clump == NULL);
-
   /* Spheres far larger than the shape: whatever cannot be measured of them, it is their fault. */
   const double offsets[4] = {1e3, 1e9, 1e100, 1e300};
   const uint32_t wants[3] = {MORULA_WANT_NOTHING, MORULA_WANT_OVERLAP, MORULA_WANT_SURFACE};
   for (int i = 0; i < 12; i++) {
     morula_clump_options huge;
     OK(morula_clump_options_init(&huge, sizeof huge));
-    huge.method = MORULA_METHOD_MSS;
     huge.spheres = 2;
     huge.method = MORULA_METHOD_MSS;
     huge.radius_offset = offsets[i / 3];
