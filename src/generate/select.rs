@@ -113,7 +113,9 @@ impl Chunk {
         let r2 = f32x8::splat(ball.radius * ball.radius);
         let mut bits = 0;
         for (k, p) in self.points.iter().enumerate() {
-            let [x, y, z] = [0, 1, 2].map(|a| p[a] - ball.center[a]);
+            // One by one: `map` of arrays is not inlined here.
+            let (x, y) = (p[0] - ball.center[0], p[1] - ball.center[1]);
+            let z = p[2] - ball.center[2];
             let d2 = x * x + y * y + z * z;
             bits |= u64::from(d2.simd_le(r2).to_bitmask()) << (8 * k);
         }

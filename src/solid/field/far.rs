@@ -71,7 +71,10 @@ impl Nodes {
 
     #[inline(always)]
     fn offer(&mut self, at: usize, node: [usize; 3], foot: [f32; 3]) {
-        let [x, y, z] = [0, 1, 2].map(|a| (2 * node[a]) as f32 - foot[a]);
+        // One by one: `map` of arrays is not inlined here and takes a third of the time.
+        let x = (2 * node[0]) as f32 - foot[0];
+        let y = (2 * node[1]) as f32 - foot[1];
+        let z = (2 * node[2]) as f32 - foot[2];
         let squared = x * x + y * y + z * z;
         if squared < self.squared[at] {
             self.squared[at] = squared;
