@@ -167,3 +167,21 @@ fn as_many_spheres_as_there_is_time_for() {
     let clump = generate(&solid, &ask(0, Effort::Normal), &late).unwrap();
     assert_eq!((clump.spheres.len(), clump.stopped), (8, Stopped::Deadline));
 }
+
+#[test]
+fn a_power_of_two_scales_every_byte() {
+    let (vertices, faces) = Primitive::from_name("stone").unwrap().mesh(24).unwrap();
+    let made = |k: f64| {
+        let run = Run::serial();
+        let scaled: Vec<[f64; 3]> = vertices.iter().map(|v| v.map(|x| x * k)).collect();
+        let shape = Shape::from_mesh(&scaled, &faces, &ImportOptions::default(), &run).unwrap();
+        let solid = Solid::new(&shape, &SolidOptions::default(), &run).unwrap();
+        generate(&solid, &ask(20, Effort::Normal), &run).unwrap().spheres
+    };
+    let plain = made(1.0);
+    for k in [2f64.powi(-40), 2f64.powi(30)] {
+        for (s, p) in made(k).iter().zip(&plain) {
+            assert_eq!((s.center, s.radius), (p.center * k, p.radius * k));
+        }
+    }
+}

@@ -18,6 +18,8 @@ const ROUNDS: usize = 4;
 const STIFF: f64 = 1e4;
 /// Steps by which a sphere that is too small for its place is moved at the end.
 const STEPS: usize = 24;
+/// Cells from the surface from which on the field tells inside from outside in a search.
+const SURE: f32 = 0.3;
 /// Beyond so many sizes a plane says nothing more.
 const FAR: f64 = 1e6;
 
@@ -84,11 +86,11 @@ impl<'a> Limits<'a> {
         }
         if let Some((most, surface)) = self.protrusion {
             let p = Vec3::from(ball.center.map(f64::from));
-            // The field is right to a part of a cell.
+            // The field is right to a part of a cell, and near the surface to a tenth.
             let rough = field.one(ball.center);
             let about = f64::from(rough.abs() + field.cell());
             let nearest = surface.nearest_within(&p, about).unwrap_or_else(|| surface.nearest(&p));
-            let sure = rough.abs() > field.cell();
+            let sure = rough.abs() > SURE * field.cell();
             let inside = if sure { rough < 0.0 } else { surface.contains(&p) };
             let sign = if inside { -1.0 } else { 1.0 };
             let way = p - nearest.point;
