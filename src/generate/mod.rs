@@ -1,9 +1,11 @@
 //! The methods that turn a solid into a clump.
 
 mod ball;
+mod balls;
 mod baselines;
 pub mod best;
 pub mod cover;
+mod inscribed;
 mod many;
 pub mod mss;
 mod packed;
@@ -132,7 +134,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
         }
         Method::Best => best::fewest::make(solid, options, run),
         Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
-        Method::Inscribed => best::inscribed::inscribed(solid, options, run),
+        Method::Inscribed => inscribed::inscribed(solid, options, run),
         Method::Cover => cover::cover(solid, options, run),
         Method::Packed => packed::packed(solid, options, run),
         Method::Euclidean => baselines::euclidean(solid, options, run),

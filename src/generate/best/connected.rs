@@ -1,10 +1,10 @@
 //! One piece: spheres that hang together by overlaps. Where the closest clump falls into parts, they
 //! are joined in the way that costs least, and no move or refinement parts them again.
 
-use super::cover::Look;
-use super::near::Near;
 use super::state::State;
 use crate::generate::ball::Ball;
+use crate::generate::balls::cover::Look;
+use crate::generate::balls::near::Near;
 use crate::math::Sphere;
 
 /// How deep an overlap holds, as a part of the smaller radius: rounding, in a solver's own numbers
@@ -188,7 +188,7 @@ fn ways(state: &State, part: &[u32], [i, j]: [usize; 2]) -> Vec<Vec<Ball>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::best::random::Random;
+    use crate::generate::balls::random::Random;
     use crate::math::Vec3;
 
     #[test]

@@ -1,12 +1,13 @@
 //! What spheres keep within: half-spaces, a distance beyond the surface, radii. While a clump is
 //! looked for by the field in single precision, at its end exactly.
 
-use super::exposed::Normal;
-use super::field::Field;
 use super::options::BestOptions;
 use super::refine::Radii;
 use crate::error::{Result, reserve};
 use crate::generate::ball::Ball;
+use crate::generate::balls::Plane;
+use crate::generate::balls::exposed::Normal;
+use crate::generate::balls::field::Field;
 use crate::math::{Sphere, UnitFrame, Vec3};
 use crate::run::Run;
 use crate::solid::Solid;
@@ -22,13 +23,6 @@ const STEPS: usize = 24;
 const SURE: f32 = 0.3;
 /// Beyond so many sizes a plane says nothing more.
 const FAR: f64 = 1e6;
-
-/// The points p with normal · p ≤ offset, unit frame; the normal has length 1.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Plane {
-    pub normal: Vec3,
-    pub offset: f64,
-}
 
 /// The half-spaces asked for.
 pub(super) fn planes(options: &BestOptions, frame: &UnitFrame) -> Vec<Plane> {

@@ -1,8 +1,8 @@
 //! Limits by the field, as conditions of a least square, and exactly.
 
-use super::super::random::Random;
-use super::super::test_bodies::bodies;
 use super::*;
+use crate::generate::balls::random::Random;
+use crate::generate::balls::test_bodies::bodies;
 use crate::generate::best::HalfSpace;
 use crate::run::Pool;
 use crate::shape::primitive::Primitive;

@@ -6,35 +6,20 @@
 //! into the volume between the surfaces; then single balls are moved to where they help more,
 //! with what is around them refined, and kept when the mismatch by exact columns falls.
 
-mod between;
-mod chords;
 mod connected;
-mod cover;
-mod dexels;
-mod directions;
 mod effort;
-mod exposed;
 pub(super) mod fewest;
-mod field;
 mod finish;
-pub(super) mod inscribed;
 mod limits;
-mod medial;
 mod moves;
-mod near;
 mod options;
-mod piles;
-pub(super) mod random;
 mod refine;
 mod search;
 mod seeds;
-mod smooth;
 mod start;
 mod state;
 mod symmetry;
 mod target;
-#[cfg(test)]
-mod test_bodies;
 mod volume;
 
 pub use effort::Effort;
@@ -43,15 +28,13 @@ pub use options::{BestOptions, HalfSpace, Symmetry};
 use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result, figure};
-use crate::math::Vec3;
+use crate::generate::balls::cover::Look;
+use crate::generate::balls::smooth::Smooth;
 use crate::run::Run;
-use crate::shape::Body;
 use crate::solid::Solid;
-use cover::Look;
 use limits::{Exact, Limits};
 use refine::Radii;
 use search::{BATCH, Search};
-use smooth::Smooth;
 use start::Start;
 use state::Ground;
 
@@ -124,7 +107,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         let held = solid.bytes() + field.bytes() + dexels.bytes();
         let room = solid.memory_limit().saturating_sub(held);
         let (grid, seed) = (solid.grid(), run.seed());
-        Some(Smooth::new(asked.smoothness, grid, &ground, (n, volume), seed, room)?)
+        Some(Smooth::new(asked.smoothness, grid, (&field, &dexels), (n, volume), seed, room)?)
     } else {
         None
     };
@@ -200,19 +183,4 @@ fn check(o: &GenerateOptions) -> Result<usize> {
         )));
     }
     Ok(o.spheres)
-}
-
-/// Bounding box of the body.
-fn bounds(solid: &Solid) -> Result<[Vec3; 2]> {
-    let empty = || Error::Empty("the target has no vertex and no cell".into());
-    match solid.body() {
-        Body::Voxels(v) => {
-            let dims = Vec3::from(v.dims.map(|d| d as f64));
-            Ok([Vec3::zeros(), dims.component_mul(&v.spacing)])
-        }
-        Body::Mesh(m) => {
-            let first = m.vertices.first().ok_or_else(empty)?;
-            Ok(m.vertices.iter().fold([*first, *first], |[l, h], v| [l.inf(v), h.sup(v)]))
-        }
-    }
 }

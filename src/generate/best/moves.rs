@@ -4,15 +4,15 @@
 //! In two stages: what looks hopeless after a rough refinement is not refined further; and what
 //! few directions gain by chance is gone when many look.
 
-use super::cover::Look;
-use super::dexels::Seen;
-use super::directions::Directions;
-use super::medial;
-use super::random::Random;
 use super::refine::{Refiner, Schedule};
 use super::state::State;
 use super::symmetry::{Orbit, Orbits};
 use crate::generate::ball::Ball;
+use crate::generate::balls::cover::Look;
+use crate::generate::balls::dexels::Seen;
+use crate::generate::balls::directions::Directions;
+use crate::generate::balls::medial;
+use crate::generate::balls::random::Random;
 
 /// Part of the moves that shake a ball where it is.
 const SHAKEN: f64 = 0.25;

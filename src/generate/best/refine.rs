@@ -2,15 +2,16 @@
 //! surface lies on the target's, in the sense of Huber's loss; its width falls from iteration to
 //! iteration, so that least squares of distances become least volume between the surfaces.
 
-use super::directions::Directions;
-use super::exposed::{Normal, Sampler, Scratch, Weights};
-use super::field::Field;
 use super::limits::Limits;
-use super::near::Near;
-use super::random::Random;
-use super::smooth::{Drawn, Pull};
 use super::symmetry::Orbits;
 use crate::generate::ball::Ball;
+use crate::generate::balls::directions::Directions;
+use crate::generate::balls::drawn::Drawn;
+use crate::generate::balls::exposed::{Normal, Sampler, Scratch, Weights};
+use crate::generate::balls::field::Field;
+use crate::generate::balls::near::Near;
+use crate::generate::balls::random::Random;
+use crate::generate::balls::smooth::Pull;
 use crate::run::Pool;
 use wide::f32x8;
 
@@ -89,7 +90,7 @@ impl Refiner {
         let sum: f64 = of.iter().map(|&i| f64::from(balls[i as usize].radius)).sum();
         let slack = SLACK * (sum / of.len().max(1) as f64) as f32;
         if let Some(pull) = &task.pull {
-            drawn.begin(pull, balls, of, task.orbits);
+            drawn.begin(pull, balls, of, task.orbits.balls(of));
         }
         let mut moved = f32::MAX;
         let shrink = schedule.to / schedule.from;

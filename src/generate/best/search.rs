@@ -2,14 +2,14 @@
 //! help are taken one after the other, each only if it still helps after those before it. The
 //! result does not depend on how many threads share a batch.
 
-use super::cover::Look;
-use super::directions::Directions;
-use super::exposed::Weights;
 use super::moves::{Fans, Moved, Mover};
-use super::random::Random;
 use super::refine::{Refiner, Schedule};
 use super::state::State;
 use crate::generate::ball::Ball;
+use crate::generate::balls::cover::Look;
+use crate::generate::balls::directions::Directions;
+use crate::generate::balls::exposed::Weights;
+use crate::generate::balls::random::Random;
 use crate::run::Pool;
 use std::sync::{Mutex, PoisonError};
 

@@ -1,11 +1,11 @@
 //! The start of a search: a greedy cover of points inside by grown medial balls.
 
 use super::effort::Plan;
-use super::medial;
-use super::random::Random;
 use super::state::Ground;
 use crate::error::{Result, reserve};
 use crate::generate::ball::Ball;
+use crate::generate::balls::medial;
+use crate::generate::balls::random::Random;
 use crate::generate::select::choose;
 
 /// Candidates are larger than fits by this factor: balls that reach out a little everywhere cover

@@ -1,17 +1,17 @@
 //! The start of a search: seeds, and all balls refined at once.
 
-use super::cover::Look;
-use super::directions::Directions;
 use super::effort::{Effort, Plan};
-use super::exposed::Weights;
-use super::random::Random;
 use super::refine::{Refiner, Schedule};
 use super::seeds;
-use super::smooth::Smooth;
 use super::state::{Ground, State};
 use super::symmetry::{self, Orbits, Sites};
 use crate::error::Result;
 use crate::generate::ball::Ball;
+use crate::generate::balls::cover::Look;
+use crate::generate::balls::directions::Directions;
+use crate::generate::balls::exposed::Weights;
+use crate::generate::balls::random::Random;
+use crate::generate::balls::smooth::Smooth;
 use crate::run::Pool;
 
 /// Huber's width at the first iteration, as a part of the body's size, for so many balls; of more

@@ -2,20 +2,20 @@
 //! where something is missing.
 
 use super::connected;
-use super::cover::{Cover, Lengths, Look};
-use super::dexels::{Dexels, Seen};
-use super::directions::Directions;
-use super::exposed::Weights;
-use super::field::Field;
 use super::limits::Limits;
-use super::near::Near;
-use super::piles::Piles;
-use super::random::Random;
 use super::refine::{Radii, Task};
-use super::smooth::{Pull, Smooth};
 use super::symmetry::Orbits;
 use crate::error::{Result, filled, reserve};
 use crate::generate::ball::Ball;
+use crate::generate::balls::cover::{Cover, Lengths, Look};
+use crate::generate::balls::dexels::{Dexels, Seen};
+use crate::generate::balls::directions::Directions;
+use crate::generate::balls::exposed::Weights;
+use crate::generate::balls::field::Field;
+use crate::generate::balls::near::Near;
+use crate::generate::balls::piles::Piles;
+use crate::generate::balls::random::Random;
+use crate::generate::balls::smooth::{Pull, Smooth};
 
 /// What all parts of the search read.
 #[derive(Clone, Copy)]

@@ -1,10 +1,10 @@
 //! What is covered: the body, or what half-spaces leave of it; its distance field and its columns.
 
-use super::bounds;
-use super::dexels::Dexels;
-use super::field::Field;
-use super::limits::Plane;
 use crate::error::{Error, Result, filled};
+use crate::generate::balls::Plane;
+use crate::generate::balls::bounds;
+use crate::generate::balls::dexels::Dexels;
+use crate::generate::balls::field::Field;
 use crate::math::Vec3;
 use crate::run::Run;
 use crate::solid::field::rough;

@@ -10,8 +10,8 @@ mod starts;
 #[cfg(test)]
 mod test_bodies;
 
+use super::balls::random::Random;
 use super::baselines::climb::climb;
-use super::best::random::Random;
 use super::{Effort, GenerateOptions};
 use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result, collected, figure, reserve};

@@ -3,7 +3,7 @@
 use super::lattice::{Pose, lattices};
 use super::room::Room;
 use crate::error::{Result, collected, filled, reserve};
-use crate::generate::best::random::Random;
+use crate::generate::balls::random::Random;
 use crate::math::Vec3;
 use crate::run::Run;
 

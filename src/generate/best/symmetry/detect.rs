@@ -3,9 +3,9 @@
 //! principal moments are equal, so that any axis between them is one, mirror planes are looked
 //! for among them as well.
 
-use super::super::field::Field;
 use super::group::{FOUND, Group, Matrix, Set, exchanges, mirror};
 use crate::error::{Result, reserve};
+use crate::generate::balls::field::Field;
 use crate::math::{PrincipalFrame, Vec3};
 use crate::shape::{Body, Mesh};
 use crate::solid::{Grid, Solid};

@@ -10,10 +10,10 @@ mod seeds;
 pub(super) use orbits::{Orbit, Orbits, Sites};
 pub(super) use seeds::seeds;
 
-use super::field::Field;
-use super::limits::Plane;
 use super::options::{BestOptions, Symmetry};
 use crate::error::{Error, Result, figure};
+use crate::generate::balls::Plane;
+use crate::generate::balls::field::Field;
 use crate::math::Vec3;
 use crate::solid::Solid;
 use group::{GIVEN, Group, MOST, Matrix, mirror};

@@ -1,13 +1,13 @@
 //! The moves of symmetric clumps: one orbit or two are taken out, and as many balls are put in
 //! elsewhere, in the same or in other orbits.
 
-use super::super::medial;
 use super::super::moves::{Fans, Mover, PLACES};
-use super::super::random::Random;
 use super::super::refine::Schedule;
 use super::super::state::State;
 use super::orbits::{Orbit, Sites};
 use crate::generate::ball::Ball;
+use crate::generate::balls::medial;
+use crate::generate::balls::random::Random;
 use crate::math::Vec3;
 
 /// Part of the moves that take out a second orbit.

@@ -1,15 +1,15 @@
 //! The start of a symmetric clump: a greedy cover by whole orbits of grown medial balls.
 
-use super::super::dexels::Dexels;
 use super::super::effort::Plan;
-use super::super::medial;
-use super::super::random::Random;
 use super::super::seeds::GROWN;
 use super::super::state::Ground;
 use super::group::Kind;
 use super::orbits::{Orbit, Orbits, Sites};
 use crate::error::{Result, filled, push, reserve};
 use crate::generate::ball::Ball;
+use crate::generate::balls::dexels::Dexels;
+use crate::generate::balls::medial;
+use crate::generate::balls::random::Random;
 use crate::generate::select::Points;
 use crate::math::Vec3;
 

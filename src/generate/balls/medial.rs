@@ -11,7 +11,7 @@ const HALVINGS: usize = 8;
 
 /// The greatest ball found that holds the ball about `p`: its centre moves away from the nearest
 /// surface as long as the depth grows as fast. `size`: a length of the order of the body.
-pub(super) fn ball(field: &Field, p: [f32; 3], size: f32) -> Ball {
+pub(crate) fn ball(field: &Field, p: [f32; 3], size: f32) -> Ball {
     let depth = -field.one(p);
     let slope = field.slope(p);
     let norm = slope.iter().map(|s| s * s).sum::<f32>().sqrt();

@@ -1,6 +1,6 @@
 //! How much work goes into an inscribed clump, by counts.
 
-use super::super::Effort;
+use crate::generate::Effort;
 
 /// The counts of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]

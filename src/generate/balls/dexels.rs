@@ -2,7 +2,7 @@
 //! orientation: faces parallel to the columns would be exploited on a straight one. Everything
 //! is in units of the distance between columns, with column (a, b) at the place (a, b).
 
-use super::limits::Plane;
+use super::Plane;
 use super::random::Random;
 use crate::error::{Error, Result, reserve};
 use crate::generate::ball::Ball;
@@ -19,7 +19,7 @@ const ROOM: f64 = 0.2;
 const MOST: f64 = 16_384.0;
 
 /// The target's columns.
-pub(super) struct Dexels {
+pub(crate) struct Dexels {
     lattice: Lattice,
     /// Distance between columns.
     step: f64,
@@ -33,7 +33,7 @@ pub(super) struct Dexels {
 
 /// A ball seen along the columns.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Seen {
+pub(crate) struct Seen {
     /// Place across the columns.
     pub u: f32,
     pub v: f32,
@@ -59,7 +59,7 @@ fn shadow(grid: &Grid, inside: &[u8], axis: usize) -> f64 {
 
 impl Dexels {
     /// So many columns that about `wanted` meet the target, along its box's shortest edge.
-    pub(super) fn new(
+    pub(crate) fn new(
         solid: &Solid,
         bounds: &[Vec3; 2],
         wanted: usize,
@@ -69,7 +69,7 @@ impl Dexels {
     }
 
     /// The same for a part of the body: its cells in a grid, and its box.
-    pub(super) fn among(
+    pub(crate) fn among(
         solid: &Solid,
         (grid, inside): (&Grid, &[u8]),
         [low, high]: &[Vec3; 2],
@@ -116,7 +116,7 @@ impl Dexels {
     }
 
     /// Keeps what lies within all planes.
-    pub(super) fn clip(&mut self, planes: &[Plane]) {
+    pub(crate) fn clip(&mut self, planes: &[Plane]) {
         let (axis, mut kept, mut first) = (self.lattice.axis, 0, 0);
         self.target = 0.0;
         for c in 0..self.dims[0] * self.dims[1] {
@@ -155,23 +155,23 @@ impl Dexels {
     }
 
     /// Bytes that it holds.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         (self.starts.len() * 4 + self.intervals.len() * 8) as u64
     }
 
     /// Volume of a unit of length in one column, unit frame.
-    pub(super) fn cell(&self) -> f64 {
+    pub(crate) fn cell(&self) -> f64 {
         self.step.powi(3)
     }
 
     /// The lowest and highest end of all intervals.
-    pub(super) fn ends(&self) -> [f32; 2] {
+    pub(crate) fn ends(&self) -> [f32; 2] {
         let ends = |[low, high]: [f32; 2], i: &[f32; 2]| [low.min(i[0]), high.max(i[1])];
         self.intervals.iter().fold([f32::MAX, f32::MIN], ends)
     }
 
     /// A ball along the columns.
-    pub(super) fn seen(&self, ball: &Ball) -> Seen {
+    pub(crate) fn seen(&self, ball: &Ball) -> Seen {
         let l = &self.lattice;
         let [x, y, t] = l.turn(&Vec3::from(ball.center.map(f64::from)));
         let place = |k: usize, x: f64| ((x - l.origin[k]) / l.step[k] - 0.5) as f32;
@@ -184,7 +184,7 @@ impl Dexels {
     }
 
     /// The point of column (a, b) at `t`, unit frame.
-    pub(super) fn point(&self, a: usize, b: usize, t: f32) -> [f32; 3] {
+    pub(crate) fn point(&self, a: usize, b: usize, t: f32) -> [f32; 3] {
         let [x, y] = self.lattice.place(a, b);
         let mut p = [0.0; 3];
         p[self.lattice.axis] = (f64::from(t) * self.step) as f32;
@@ -195,12 +195,12 @@ impl Dexels {
 
     /// The intervals of column `c = a + dims[0] b`.
     #[inline(always)]
-    pub(super) fn column(&self, c: usize) -> &[[f32; 2]] {
+    pub(crate) fn column(&self, c: usize) -> &[[f32; 2]] {
         &self.intervals[self.starts[c] as usize..self.starts[c + 1] as usize]
     }
 
     /// Points inside, one in each of `n` equal parts of all lengths inside.
-    pub(super) fn points(&self, n: usize, random: &mut Random) -> Result<Vec<[f32; 3]>> {
+    pub(crate) fn points(&self, n: usize, random: &mut Random) -> Result<Vec<[f32; 3]>> {
         let mut out = reserve("points inside", n)?;
         let part = self.target / n as f64;
         let (mut before, mut next) = (0.0, part * random.unit());

@@ -1,10 +1,10 @@
-use super::super::bounds;
-use super::super::dexels::Dexels;
-use super::super::field::Field;
-use super::super::random::Random;
 use super::climb::Climb;
 use super::depth::{Depth, Inside};
 use super::swap::Swaps;
+use crate::generate::balls::bounds;
+use crate::generate::balls::dexels::Dexels;
+use crate::generate::balls::field::Field;
+use crate::generate::balls::random::Random;
 use crate::run::Run;
 use crate::shape::primitive::Primitive;
 use crate::shape::{ImportOptions, Shape};

@@ -8,13 +8,13 @@ mod depth;
 mod effort;
 mod swap;
 
-use super::super::GenerateOptions;
-use super::bounds;
-use super::dexels::Dexels;
-use super::field::Field;
-use super::random::Random;
+use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result, figure, filled, reserve};
+use crate::generate::balls::bounds;
+use crate::generate::balls::dexels::Dexels;
+use crate::generate::balls::field::Field;
+use crate::generate::balls::random::Random;
 use crate::generate::select::choose;
 use crate::math::Sphere;
 use crate::run::Run;

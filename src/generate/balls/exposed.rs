@@ -7,7 +7,7 @@ use wide::f32x8;
 
 /// What overlap and protrusion weigh.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Weights {
+pub(crate) struct Weights {
     /// Of target that is covered.
     pub inside: f32,
     /// Of clump beyond the target.
@@ -19,7 +19,7 @@ pub(super) struct Weights {
 impl Weights {
     /// Those for which the least w_out |C∖S| − w_in |S∩C| is the least D, near this D, when clump
     /// beyond the target counts `overshoot` times.
-    pub(super) fn at(mismatch: f64, overshoot: f64) -> Weights {
+    pub(crate) fn at(mismatch: f64, overshoot: f64) -> Weights {
         let outside = ((1.0 - mismatch) * overshoot) as f32;
         Weights { inside: (1.0 + mismatch) as f32, outside, square: 0.0 }
     }
@@ -35,7 +35,7 @@ struct Cap {
 /// The normal equations `M δ = b` for a change of centre and radius: the upper triangle of M,
 /// row after row, and b.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Normal {
+pub(crate) struct Normal {
     pub m: [f64; 10],
     pub b: [f64; 4],
     /// Directions that are exposed.
@@ -44,13 +44,13 @@ pub(super) struct Normal {
 
 /// Buffers of [`Sampler::normal`].
 #[derive(Debug, Default, Clone)]
-pub(super) struct Scratch {
+pub(crate) struct Scratch {
     caps: Vec<Cap>,
     open: [Vec<f32>; 3],
 }
 
 /// What all spheres of an iteration have in common.
-pub(super) struct Sampler<'a> {
+pub(crate) struct Sampler<'a> {
     pub field: &'a Field,
     /// Directions, turned.
     pub directions: &'a [[f32x8; 3]],
@@ -61,7 +61,7 @@ pub(super) struct Sampler<'a> {
 
 impl Sampler<'_> {
     /// The normal equations of `ball` among `others`.
-    pub(super) fn normal<'b>(
+    pub(crate) fn normal<'b>(
         &self,
         ball: &Ball,
         others: impl Iterator<Item = &'b Ball>,
@@ -169,7 +169,7 @@ fn exposed(directions: &[[f32x8; 3]], caps: &mut [Cap], open: &mut [Vec<f32>; 3]
 }
 
 /// Sum of the exposed directions of `ball` among `others`, and how many there are.
-pub(super) fn outward<'b>(
+pub(crate) fn outward<'b>(
     ball: &Ball,
     others: impl Iterator<Item = &'b Ball>,
     directions: &[[f32x8; 3]],

@@ -9,12 +9,8 @@
 use super::between::{Between, Fresh};
 use super::cover::Region;
 use super::dexels::{Dexels, Seen};
-use super::exposed::Normal;
 use super::field::Field;
-use super::near::Near;
 use super::random::Random;
-use super::state::Ground;
-use super::symmetry::Orbits;
 use crate::error::{Result, reserve};
 use crate::generate::ball::Ball;
 use crate::solid::Grid;
@@ -26,17 +22,15 @@ const LEAST: usize = 3000;
 const LAYER: f32 = 0.75;
 /// How far from the surface a point may stay, in cells.
 const OFF: f32 = 0.05;
-/// Of the mean radius: how much nearer to balls that move a point may come.
-const SLACK: f32 = 0.5;
 
 /// The stream of random numbers for points.
 const POINTS: u64 = 1 << 40;
 
 /// A distance and the number of the ball that has it.
-type Nearest = (f32, u32);
+pub(crate) type Nearest = (f32, u32);
 
 /// Points of the target's surface, and its area.
-pub(super) fn points(
+pub(crate) fn points(
     field: &Field,
     grid: &Grid,
     balls: usize,
@@ -89,7 +83,7 @@ fn onto(field: &Field, mut p: [f32; 3]) -> Option<[f32; 3]> {
 }
 
 /// The measure of a clump.
-pub(super) struct Smooth {
+pub(crate) struct Smooth {
     weight: f64,
     /// Unit frame.
     points: Vec<[f32; 3]>,
@@ -110,7 +104,7 @@ pub(super) struct Smooth {
 
 /// What a change needs.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Buffers {
+pub(crate) struct Buffers {
     marked: Vec<bool>,
     fresh: Vec<(u32, Nearest)>,
     columns: Fresh,
@@ -119,17 +113,17 @@ pub(super) struct Buffers {
 impl Smooth {
     /// For so many balls, of which there is none yet. `volume`: the target's, unit frame;
     /// `room`: bytes that it may take.
-    pub(super) fn new(
+    pub(crate) fn new(
         weight: f64,
         grid: &Grid,
-        ground: &Ground,
+        (field, dexels): (&Field, &Dexels),
         (balls, volume): (usize, f64),
         seed: u64,
         room: u64,
     ) -> Result<Smooth> {
-        let (points, area) = points(ground.field, grid, balls, &mut Random::new(seed, POINTS))?;
-        let between = Between::new(ground.field, ground.dexels, room)?;
-        Smooth::of(weight, (points, area), between, ground.dexels, volume)
+        let (points, area) = points(field, grid, balls, &mut Random::new(seed, POINTS))?;
+        let between = Between::new(field, dexels, room)?;
+        Smooth::of(weight, (points, area), between, dexels, volume)
     }
 
     fn of(
@@ -151,7 +145,7 @@ impl Smooth {
     }
 
     /// All points and columns anew; `region` has all.
-    pub(super) fn whole(
+    pub(crate) fn whole(
         &mut self,
         dexels: &Dexels,
         region: &Region,
@@ -173,7 +167,7 @@ impl Smooth {
 
     /// By how much the sums of points and columns would change with the balls `of` at the places
     /// that `balls` has for them. The region has one in `step` of the rows that they touch.
-    pub(super) fn change(
+    pub(crate) fn change(
         &self,
         dexels: &Dexels,
         region: &Region,
@@ -210,7 +204,7 @@ impl Smooth {
     }
 
     /// Takes over what the last [`Smooth::change`] found.
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         dexels: &Dexels,
         region: &Region,
@@ -234,23 +228,23 @@ impl Smooth {
 
     /// What the clump is charged now: the weight times three distances over the target's
     /// equivalent diameter.
-    pub(super) fn now(&self) -> f64 {
+    pub(crate) fn now(&self) -> f64 {
         self.weight * self.scale * self.distance([0.0; 2])
     }
 
     /// By how much the charge rises with a change.
-    pub(super) fn rise(&self, change: [f64; 2]) -> f64 {
+    pub(crate) fn rise(&self, change: [f64; 2]) -> f64 {
         self.weight * self.scale * (self.distance(change) - self.distance([0.0; 2]))
     }
 
     /// By how much the charge rises for a unit of ∫ f in columns.
-    pub(super) fn slope(&self) -> f64 {
+    pub(crate) fn slope(&self) -> f64 {
         let least = self.distance([0.0; 2]).max(1e-9);
         0.5 * self.weight * self.scale * self.step.powi(3) / (self.area * least)
     }
 
     /// What draws balls; `volumes`: of union and target together, unit frame.
-    pub(super) fn pull(&self, volumes: f64) -> Pull<'_> {
+    pub(crate) fn pull(&self, volumes: f64) -> Pull<'_> {
         let count = self.points.len().max(1) as f64;
         let least = self.distance([0.0; 2]).max(1e-9);
         let weight = 0.5 * self.weight * self.scale * volumes / (count * least);
@@ -273,127 +267,14 @@ fn nearer([u, v, t]: &[f32; 3], s: &Seen, j: u32, best: &mut Nearest) {
     }
 }
 
-/// The same in the unit frame.
-#[inline(always)]
-fn closer(p: &[f32; 3], b: &Ball, j: u32, best: &mut Nearest) {
-    let [x, y, z] = [0, 1, 2].map(|a| p[a] - b.center[a]);
-    let apart = x * x + y * y + z * z;
-    let reach = best.0 + b.radius;
-    if reach > 0.0 && apart < reach * reach {
-        *best = (apart.sqrt() - b.radius, j);
-    }
-}
-
 /// The points of the surface as they draw the balls that are nearest to them.
 #[derive(Clone, Copy)]
-pub(super) struct Pull<'a> {
-    points: &'a [[f32; 3]],
-    nearest: &'a [Nearest],
-    step: f32,
+pub(crate) struct Pull<'a> {
+    pub points: &'a [[f32; 3]],
+    pub nearest: &'a [Nearest],
+    pub step: f32,
     /// Of a point's half square, in units of volume.
-    weight: f64,
-}
-
-/// The points that may draw some balls, and what they add to the normal equations.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Drawn {
-    /// Points, with their distance from all balls that stay.
-    local: Vec<([f32; 3], f32)>,
-    /// The ball that each was nearest to.
-    last: Vec<u32>,
-    /// Balls that move: those that lead, and their images.
-    moving: Vec<u32>,
-    /// Of each ball its place among those that lead and move, or what else it does.
-    slots: Vec<u32>,
-    sums: Vec<Normal>,
-}
-
-/// No ball, or one that stays; and one that follows its image.
-const NONE: u32 = u32::MAX;
-const FOLLOWS: u32 = u32::MAX - 1;
-
-impl Drawn {
-    /// Finds the points for the balls `of` that are about to move, and their images with them.
-    pub(super) fn begin(&mut self, pull: &Pull, balls: &[Ball], of: &[u32], orbits: &Orbits) {
-        let Drawn { local, last, moving, slots, .. } = self;
-        local.clear();
-        slots.clear();
-        slots.resize(balls.len(), NONE);
-        moving.clear();
-        moving.extend(orbits.balls(of));
-        moving.iter().for_each(|&j| slots[j as usize] = FOLLOWS);
-        for (k, &j) in (0u32..).zip(of) {
-            slots[j as usize] = k;
-        }
-        let sum: f32 = of.iter().map(|&j| balls[j as usize].radius).sum();
-        let slack = SLACK * sum / of.len().max(1) as f32;
-        for (p, &(g, i)) in pull.points.iter().zip(pull.nearest) {
-            let mut rest = (f32::MAX, 0);
-            if moving.len() < balls.len() {
-                if slots[i as usize] == NONE {
-                    rest.0 = g * pull.step;
-                    let mut near = (rest.0 + slack, NONE);
-                    moving.iter().for_each(|&j| closer(p, &balls[j as usize], j, &mut near));
-                    if near.1 == NONE {
-                        continue;
-                    }
-                } else {
-                    let stay = (0u32..).zip(balls).filter(|(j, _)| slots[*j as usize] == NONE);
-                    stay.for_each(|(j, b)| closer(p, b, j, &mut rest));
-                }
-            }
-            local.push((*p, rest.0));
-        }
-        last.clear();
-        last.resize(local.len(), NONE);
-    }
-
-    /// Sums up what the points add for each ball. `near`: which balls meet each that moves;
-    /// `anew`: those lists have changed.
-    pub(super) fn draw(&mut self, balls: &[Ball], of: &[u32], near: &Near, anew: bool) {
-        let Drawn { local, last, moving, slots, sums } = self;
-        sums.clear();
-        sums.resize(of.len(), Normal::default());
-        for ((p, rest), last) in local.iter().zip(last) {
-            let mut best = (f32::MAX, NONE);
-            // The lists are of those that lead.
-            let slot = if *last == NONE { NONE } else { slots[*last as usize] };
-            if slot >= FOLLOWS || anew {
-                moving.iter().for_each(|&j| closer(p, &balls[j as usize], j, &mut best));
-            } else {
-                closer(p, &balls[*last as usize], *last, &mut best);
-                for &j in near.of(slot as usize) {
-                    if slots[j as usize] != NONE {
-                        closer(p, &balls[j as usize], j, &mut best);
-                    }
-                }
-            }
-            *last = best.1;
-            let (g, j) = best;
-            if j == NONE || g >= *rest || slots[j as usize] >= FOLLOWS {
-                continue;
-            }
-            let k = slots[j as usize];
-            let ball = &balls[of[k as usize] as usize];
-            let apart = f64::from((g + ball.radius).max(1e-6));
-            let way = [0, 1, 2].map(|a| f64::from(p[a] - ball.center[a]) / apart);
-            let row = [way[0], way[1], way[2], 1.0];
-            let sum = &mut sums[k as usize];
-            let mut upper = sum.m.iter_mut();
-            for i in 0..4 {
-                row[i..].iter().zip(&mut upper).for_each(|(x, m)| *m += row[i] * x);
-                sum.b[i] += f64::from(g) * row[i];
-            }
-        }
-    }
-
-    /// Adds to the equations of the ball that came `k`th, whose directions stand for `area` each.
-    pub(super) fn add(&self, pull: &Pull, k: usize, width: f32, area: f64, normal: &mut Normal) {
-        let Some(sum) = self.sums.get(k) else { return };
-        let weight = pull.weight * f64::from(width) / area;
-        normal.m.iter_mut().zip(&sum.m).for_each(|(m, s)| *m += weight * s);
-        normal.b.iter_mut().zip(&sum.b).for_each(|(b, s)| *b += weight * s);
-    }
+    pub weight: f64,
 }
 
 #[cfg(test)]

@@ -5,13 +5,13 @@ use wide::f32x8;
 
 /// Directions, eight to a group.
 #[derive(Debug, Clone)]
-pub(super) struct Directions {
+pub(crate) struct Directions {
     groups: Vec<[f32x8; 3]>,
 }
 
 impl Directions {
     /// About `m` directions: the next multiple of eight.
-    pub(super) fn new(m: usize) -> Directions {
+    pub(crate) fn new(m: usize) -> Directions {
         let n = m.div_ceil(8).max(1) * 8;
         let turn = std::f64::consts::PI * (1.0 + 5f64.sqrt());
         let mut all: Vec<[f32; 3]> = (0..n)
@@ -30,12 +30,12 @@ impl Directions {
     }
 
     /// Number of directions.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         8 * self.groups.len()
     }
 
     /// The directions turned, into `out`.
-    pub(super) fn turned(&self, rows: &[[f32; 3]; 3], out: &mut Vec<[f32x8; 3]>) {
+    pub(crate) fn turned(&self, rows: &[[f32; 3]; 3], out: &mut Vec<[f32x8; 3]>) {
         out.clear();
         let [a, b, c] = rows;
         let dot = |r: &[f32; 3], [x, y, z]: &[f32x8; 3]| *x * r[0] + *y * r[1] + *z * r[2];

@@ -1,7 +1,7 @@
 //! The signed distance field as the refinement reads it: trilinear between cell centres, clamped
 //! to the grid outside it, eight places at a time.
 
-use super::limits::Plane;
+use super::Plane;
 use crate::error::{Result, filled};
 use crate::run::Pool;
 use crate::solid::Grid;
@@ -9,7 +9,7 @@ use wide::f32x8;
 
 /// Values at cell centres.
 #[derive(Debug, Clone)]
-pub(super) struct Field {
+pub(crate) struct Field {
     values: Vec<f32>,
     /// Cells along x, and of a layer.
     stride: [usize; 2],
@@ -25,7 +25,7 @@ impl Field {
     ///
     /// Linear interpolation lies beyond a curved function by h²/12 of its second derivative on
     /// average: the balls of a smooth body would all be too small. This much is taken off before.
-    pub(super) fn new(grid: &Grid, values: &[f32], pool: &Pool) -> Result<Field> {
+    pub(crate) fn new(grid: &Grid, values: &[f32], pool: &Pool) -> Result<Field> {
         let first = grid.center(0, 0, 0);
         let mut field = Field {
             values: filled("the field of the refinement", values.len(), 0.0)?,
@@ -58,7 +58,7 @@ impl Field {
 
     /// The field of what half-spaces leave: inside, the distance to the nearer of surface and
     /// planes; outside at most that.
-    pub(super) fn cut(&mut self, grid: &Grid, planes: &[Plane], pool: &Pool) {
+    pub(crate) fn cut(&mut self, grid: &Grid, planes: &[Plane], pool: &Pool) {
         if planes.is_empty() {
             return;
         }
@@ -74,19 +74,19 @@ impl Field {
     }
 
     /// Bytes that it holds.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         self.values.len() as u64 * 4
     }
 
     /// Cell edge, the longest.
-    pub(super) fn cell(&self) -> f32 {
+    pub(crate) fn cell(&self) -> f32 {
         let [x, y, z] = self.inverse;
         1.0 / x.min(y).min(z)
     }
 
     /// The values at eight places.
     #[inline(always)]
-    pub(super) fn at(&self, [x, y, z]: [f32x8; 3]) -> f32x8 {
+    pub(crate) fn at(&self, [x, y, z]: [f32x8; 3]) -> f32x8 {
         let (i, tx) = self.split(x, 0);
         let (j, ty) = self.split(y, 1);
         let (k, tz) = self.split(z, 2);
@@ -115,7 +115,7 @@ impl Field {
     }
 
     /// The value at one place.
-    pub(super) fn one(&self, p: [f32; 3]) -> f32 {
+    pub(crate) fn one(&self, p: [f32; 3]) -> f32 {
         let mut at = 0;
         let mut t = [0.0; 3];
         let stride = [1, self.stride[0], self.stride[1]];
@@ -132,7 +132,7 @@ impl Field {
     }
 
     /// The slope at a place, over a cell.
-    pub(super) fn slope(&self, p: [f32; 3]) -> [f32; 3] {
+    pub(crate) fn slope(&self, p: [f32; 3]) -> [f32; 3] {
         [0, 1, 2].map(|a| {
             let (mut q, h) = (p, 0.5 / self.inverse[a]);
             q[a] = p[a] + h;

@@ -8,7 +8,7 @@ const FEW: usize = 96;
 
 /// For each of some balls, those that meet it or may soon.
 #[derive(Debug, Default, Clone)]
-pub(super) struct Near {
+pub(crate) struct Near {
     starts: Vec<u32>,
     lists: Vec<u32>,
     /// Balls looked at while making the lists.
@@ -30,7 +30,7 @@ struct Cells {
 
 impl Near {
     /// The lists of the balls `of` among all `balls`.
-    pub(super) fn make(&mut self, balls: &[Ball], of: &[u32], slack: f32) {
+    pub(crate) fn make(&mut self, balls: &[Ball], of: &[u32], slack: f32) {
         self.starts.clear();
         self.lists.clear();
         self.starts.push(0);
@@ -77,7 +77,7 @@ impl Near {
 
     /// The list of the ball that came `k`th.
     #[inline(always)]
-    pub(super) fn of(&self, k: usize) -> &[u32] {
+    pub(crate) fn of(&self, k: usize) -> &[u32] {
         &self.lists[self.starts[k] as usize..self.starts[k + 1] as usize]
     }
 }

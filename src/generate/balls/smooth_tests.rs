@@ -1,6 +1,9 @@
 //! Distances against all balls one by one, changes against whole sums, pulls against slopes.
 
 use super::super::cover::Look;
+use super::super::drawn::Drawn;
+use super::super::exposed::Normal;
+use super::super::near::Near;
 use super::super::test_bodies::{Bodies, bodies};
 use super::*;
 use crate::run::Pool;
@@ -139,7 +142,7 @@ fn pulls_are_the_slopes_of_the_charge() {
         let mut near = Near::default();
         near.make(&balls, of, 0.05);
         let mut drawn = Drawn::default();
-        drawn.begin(&pull, &balls, of, &Orbits::default());
+        drawn.begin(&pull, &balls, of, of.iter().copied());
         for anew in [true, false] {
             drawn.draw(&balls, of, &near, anew);
             for (k, &j) in of.iter().enumerate() {

@@ -1,11 +1,11 @@
 //! Swaps: the ball that covers least alone goes where most is missing, and what is around both
 //! places climbs. Kept when the clump covers more.
 
-use super::super::dexels::Seen;
-use super::super::random::Random;
 use super::climb::Climb;
 use super::depth::Inside;
 use crate::generate::ball::Ball;
+use crate::generate::balls::dexels::Seen;
+use crate::generate::balls::random::Random;
 
 /// Places tried for a ball.
 const PLACES: usize = 12;

@@ -1,13 +1,13 @@
 //! The climb: balls take steps that cover more, one after the other; no other step is taken.
 
-use super::super::cover::{Cover, Lengths, Look};
-use super::super::dexels::{Dexels, Seen};
-use super::super::directions::Directions;
-use super::super::exposed::{Scratch, outward};
-use super::super::random::Random;
 use super::depth::{Depth, Inside};
 use crate::error::{Result, filled};
 use crate::generate::ball::Ball;
+use crate::generate::balls::cover::{Cover, Lengths, Look};
+use crate::generate::balls::dexels::{Dexels, Seen};
+use crate::generate::balls::directions::Directions;
+use crate::generate::balls::exposed::{Scratch, outward};
+use crate::generate::balls::random::Random;
 use wide::f32x8;
 
 /// Directions on a ball.

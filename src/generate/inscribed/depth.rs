@@ -1,8 +1,8 @@
 //! The largest ball about a place that stays within the surface.
 
-use super::super::field::Field;
-use super::super::medial;
 use crate::generate::ball::Ball;
+use crate::generate::balls::field::Field;
+use crate::generate::balls::medial;
 use crate::math::{Sphere, Vec3};
 use crate::solid::nearest::Surface;
 

@@ -8,7 +8,7 @@ use super::dexels::{Dexels, Seen};
 use crate::error::{Result, filled};
 
 /// Lower end, upper end, number of the ball.
-pub(super) type Chord = (f32, f32, u32);
+pub(crate) type Chord = (f32, f32, u32);
 
 /// A chord in a pile.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -35,14 +35,14 @@ struct Place {
 
 /// The chords of each column by their lower ends, column after column.
 #[derive(Debug, Clone)]
-pub(super) struct Piles {
+pub(crate) struct Piles {
     places: Vec<Place>,
     links: Vec<Link>,
 }
 
 /// Balls that change: numbers and new places, and a mark on each of their numbers.
 #[derive(Debug, Default, Clone)]
-pub(super) struct Exchange {
+pub(crate) struct Exchange {
     numbers: Vec<u32>,
     seen: Vec<Seen>,
     order: Vec<u32>,
@@ -54,7 +54,7 @@ pub(super) struct Exchange {
 
 impl Exchange {
     /// The balls `of` of `n` are at the places that `seen` has for them.
-    pub(super) fn set(&mut self, of: &[u32], seen: &[Seen]) {
+    pub(crate) fn set(&mut self, of: &[u32], seen: &[Seen]) {
         for &j in &self.numbers {
             if let Some(mark) = self.marked.get_mut(j as usize) {
                 *mark = false;
@@ -91,13 +91,13 @@ impl Link {
 
 impl Piles {
     /// Of no ball.
-    pub(super) fn new(dexels: &Dexels) -> Result<Piles> {
+    pub(crate) fn new(dexels: &Dexels) -> Result<Piles> {
         let n = dexels.dims[0] * dexels.dims[1];
         Ok(Piles { places: filled("chords of columns", n, Place::default())?, links: Vec::new() })
     }
 
     /// Bytes that it holds.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         let places = self.places.len() * size_of::<Place>();
         (places + self.links.capacity() * size_of::<Link>()) as u64
     }
@@ -110,7 +110,7 @@ impl Piles {
     }
 
     /// All columns anew; `order`: the balls by their lower ends.
-    pub(super) fn fill(&mut self, dexels: &Dexels, balls: &[Seen], order: &[u32]) {
+    pub(crate) fn fill(&mut self, dexels: &Dexels, balls: &[Seen], order: &[u32]) {
         let mut row = Row::default();
         let across = dexels.dims[0];
         self.links.clear();
@@ -146,7 +146,7 @@ impl Piles {
     }
 
     /// What the region's columns hold after the exchange, less `now`.
-    pub(super) fn change(
+    pub(crate) fn change(
         &self,
         dexels: &Dexels,
         region: &Region,
@@ -176,7 +176,7 @@ impl Piles {
     }
 
     /// Takes the exchange over, and keeps the books of what each ball covers alone.
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         dexels: &Dexels,
         region: &Region,
@@ -207,7 +207,7 @@ impl Piles {
     }
 
     /// What each ball covers alone, of all columns.
-    pub(super) fn alone(&self, dexels: &Dexels, alone: &mut [Lengths]) {
+    pub(crate) fn alone(&self, dexels: &Dexels, alone: &mut [Lengths]) {
         for c in 0..self.places.len() {
             count(self.column(c).iter().map(Link::chord), dexels.column(c), 1.0, alone);
         }

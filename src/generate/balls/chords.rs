@@ -5,7 +5,7 @@ use wide::f32x8;
 
 /// Chords of one row of columns.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Row {
+pub(crate) struct Row {
     counts: Vec<u32>,
     /// In each column, disjoint ascending intervals; `most` places for each.
     joined: Vec<[f32; 2]>,
@@ -29,7 +29,7 @@ impl Row {
     }
 
     /// The union of the balls in columns `from..to` of row `b`.
-    pub(super) fn join(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
+    pub(crate) fn join(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
         self.begin(b, run, balls, order);
         let Row { counts, joined, most, touching, .. } = self;
         if joined.len() < *most * counts.len() {
@@ -44,7 +44,7 @@ impl Row {
     }
 
     /// As [`Row::cut`], for many balls.
-    pub(super) fn cut_many(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
+    pub(crate) fn cut_many(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
         self.begin(b, run, balls, order);
         let Row { counts, single, most, touching, .. } = self;
         if single.len() < *most * counts.len() {
@@ -62,7 +62,7 @@ impl Row {
     }
 
     /// The chords of each ball in columns `from..to` of row `b`.
-    pub(super) fn cut(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
+    pub(crate) fn cut(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
         self.begin(b, run, balls, order);
         let Row { counts, single, most, touching, .. } = self;
         if single.len() < *most * counts.len() {
@@ -84,13 +84,13 @@ impl Row {
 
     /// After [`Row::join`], the union in the column `from + k`.
     #[inline(always)]
-    pub(super) fn joined(&self, k: usize) -> &[[f32; 2]] {
+    pub(crate) fn joined(&self, k: usize) -> &[[f32; 2]] {
         &self.joined[k * self.most..k * self.most + self.counts[k] as usize]
     }
 
     /// After [`Row::cut`], the chords of the column `from + k`.
     #[inline(always)]
-    pub(super) fn single(&self, k: usize) -> &[(f32, f32, u32)] {
+    pub(crate) fn single(&self, k: usize) -> &[(f32, f32, u32)] {
         &self.single[k * self.most..k * self.most + self.counts[k] as usize]
     }
 }
@@ -140,7 +140,7 @@ fn add(column: &mut [[f32; 2]], count: usize, mut lo: f32, mut hi: f32) -> u32 {
 
 /// Length of `union`, and of its part in the intervals `inside`.
 #[inline(always)]
-pub(super) fn lengths(union: &[[f32; 2]], inside: &[[f32; 2]]) -> [f32; 2] {
+pub(crate) fn lengths(union: &[[f32; 2]], inside: &[[f32; 2]]) -> [f32; 2] {
     let mut out = [0.0f32; 2];
     for c in union {
         out[0] += c[1] - c[0];
@@ -153,7 +153,7 @@ pub(super) fn lengths(union: &[[f32; 2]], inside: &[[f32; 2]]) -> [f32; 2] {
 
 /// Calls `f(ball, from, to)` for each part of a column that lies in one chord only.
 #[inline(always)]
-pub(super) fn single(
+pub(crate) fn single(
     mut chords: impl Iterator<Item = (f32, f32, u32)>,
     mut f: impl FnMut(u32, f32, f32),
 ) {
@@ -179,7 +179,7 @@ pub(super) fn single(
 
 /// The number rounded up, from 0 to `most`.
 #[inline(always)]
-pub(super) fn whole(x: f32, most: usize) -> usize {
+pub(crate) fn whole(x: f32, most: usize) -> usize {
     // Towards zero, and one more where something was cut off.
     let down = x.max(0.0).min(most as f32) as usize;
     (down + usize::from((down as f32) < x)).min(most)

@@ -7,20 +7,20 @@ use crate::shape::primitive::Primitive;
 use crate::shape::{ImportOptions, Shape};
 use crate::solid::{Solid, SolidOptions};
 
-pub(super) struct Bodies {
+pub(crate) struct Bodies {
     pub solid: Solid,
     pub distance: Vec<f32>,
     pub bounds: [Vec3; 2],
 }
 
 impl Bodies {
-    pub(super) fn dexels(&self, columns: usize) -> Dexels {
+    pub(crate) fn dexels(&self, columns: usize) -> Dexels {
         Dexels::new(&self.solid, &self.bounds, columns, &Pool::serial()).unwrap()
     }
 }
 
 /// A box, and a torus: flat and round, with and without a hole.
-pub(super) fn bodies() -> Vec<Bodies> {
+pub(crate) fn bodies() -> Vec<Bodies> {
     ["box", "torus"]
         .map(|name| {
             let run = Run::serial();

@@ -16,7 +16,7 @@ const MOST: f32 = 4096.0;
 
 /// ∫ f in columns: f in the unit frame, along columns in their own units.
 #[derive(Debug, Clone)]
-pub(super) struct Between {
+pub(crate) struct Between {
     /// Place of the first node along the columns, and distance between nodes.
     low: f32,
     step: f32,
@@ -32,7 +32,7 @@ pub(super) struct Between {
 
 /// What a look at a region needs.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Fresh {
+pub(crate) struct Fresh {
     row: Row,
     order: Vec<u32>,
     /// The columns' new integrals.
@@ -41,7 +41,7 @@ pub(super) struct Fresh {
 
 impl Between {
     /// Of no ball; in no more than `room` bytes.
-    pub(super) fn new(field: &Field, dexels: &Dexels, room: u64) -> Result<Between> {
+    pub(crate) fn new(field: &Field, dexels: &Dexels, room: u64) -> Result<Between> {
         let [low, high] = dexels.ends();
         let cell = f64::from(field.cell()) / dexels.cell().cbrt();
         // Room for balls that reach out.
@@ -93,7 +93,7 @@ impl Between {
     }
 
     /// By how much ∫ f over the clump would change in the region's columns with these balls.
-    pub(super) fn change(
+    pub(crate) fn change(
         &self,
         dexels: &Dexels,
         region: &Region,
@@ -120,7 +120,7 @@ impl Between {
     }
 
     /// Takes over what the last [`Between::change`] found.
-    pub(super) fn take(&mut self, dexels: &Dexels, region: &Region, change: f64, fresh: &Fresh) {
+    pub(crate) fn take(&mut self, dexels: &Dexels, region: &Region, change: f64, fresh: &Fresh) {
         let mut fresh = fresh.columns.iter();
         for (b, [from, to]) in region.runs() {
             let first = b * dexels.dims[0];
@@ -132,7 +132,7 @@ impl Between {
     }
 
     /// All columns anew; `region` has all.
-    pub(super) fn whole(
+    pub(crate) fn whole(
         &mut self,
         dexels: &Dexels,
         region: &Region,
@@ -145,7 +145,7 @@ impl Between {
     }
 
     /// E after a change.
-    pub(super) fn sum(&self, change: f64) -> f64 {
+    pub(crate) fn sum(&self, change: f64) -> f64 {
         (self.clump - self.target + change).max(0.0)
     }
 }

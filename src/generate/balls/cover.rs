@@ -9,7 +9,7 @@ use crate::error::{Result, filled};
 
 /// Lengths of columns in units of the lattice.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Lengths {
+pub(crate) struct Lengths {
     /// In the clump.
     pub union: f64,
     /// In clump and target.
@@ -18,28 +18,28 @@ pub(super) struct Lengths {
 
 impl Lengths {
     /// D with a target of this length (Buchele et al. 2026, eq 27).
-    pub(super) fn mismatch(&self, target: f64) -> f64 {
+    pub(crate) fn mismatch(&self, target: f64) -> f64 {
         (1.0 - 2.0 * self.both / (self.union + target)).clamp(0.0, 1.0)
     }
 
     /// The same when clump beyond the target counts `overshoot` times.
-    pub(super) fn weighed(&self, overshoot: f64) -> Lengths {
+    pub(crate) fn weighed(&self, overshoot: f64) -> Lengths {
         Lengths { union: self.union + (overshoot - 1.0) * (self.union - self.both), ..*self }
     }
 
     /// `w_out |C∖S| − w_in |S∩C|` with the weights that belong to D.
-    pub(super) fn cost(&self, mismatch: f64) -> f64 {
+    pub(crate) fn cost(&self, mismatch: f64) -> f64 {
         (1.0 - mismatch) * (self.union - self.both) - (1.0 + mismatch) * self.both
     }
 
-    pub(super) fn plus(&self, other: &Lengths) -> Lengths {
+    pub(crate) fn plus(&self, other: &Lengths) -> Lengths {
         Lengths { union: self.union + other.union, both: self.both + other.both }
     }
 }
 
 /// A set of columns: runs in rows.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Region {
+pub(crate) struct Region {
     /// Row, first column, and the one after the last; ascending, apart from each other.
     runs: Vec<[u32; 3]>,
     /// The box around them: lower and upper ends across the columns, along both axes.
@@ -51,13 +51,13 @@ pub(super) struct Region {
 
 /// What each column holds of a clump.
 #[derive(Debug, Clone)]
-pub(super) struct Cover {
+pub(crate) struct Cover {
     columns: Vec<[f32; 2]>,
 }
 
 /// A region that is looked at, with buffers.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Look {
+pub(crate) struct Look {
     pub region: Region,
     /// Balls that change.
     pub exchange: Exchange,
@@ -71,7 +71,7 @@ pub(super) struct Look {
 
 impl Region {
     /// All columns.
-    pub(super) fn all(&mut self, dexels: &Dexels) {
+    pub(crate) fn all(&mut self, dexels: &Dexels) {
         let [na, nb] = dexels.dims;
         self.runs.clear();
         self.runs.extend((0..nb as u32).map(|b| [b, 0, na as u32]));
@@ -87,7 +87,7 @@ impl Region {
     }
 
     /// The columns that any of `balls` touches.
-    pub(super) fn of(&mut self, dexels: &Dexels, balls: impl Iterator<Item = Seen> + Clone) {
+    pub(crate) fn of(&mut self, dexels: &Dexels, balls: impl Iterator<Item = Seen> + Clone) {
         (self.low, self.high) = ([f32::MAX; 2], [f32::MIN; 2]);
         self.runs.clear();
         self.bits.clear();
@@ -136,24 +136,24 @@ impl Region {
     }
 
     /// Keeps every `step`th row.
-    pub(super) fn thin(&mut self, step: u32) {
+    pub(crate) fn thin(&mut self, step: u32) {
         if step > 1 {
             self.runs.retain(|r| r[0].is_multiple_of(step));
         }
     }
 
     /// Numbers of its rows.
-    pub(super) fn rows(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn rows(&self) -> impl Iterator<Item = usize> {
         self.runs.chunk_by(|x, y| x[0] == y[0]).filter_map(|r| r.first()).map(|r| r[0] as usize)
     }
 
     /// Rows with a run of columns.
-    pub(super) fn runs(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
+    pub(crate) fn runs(&self) -> impl Iterator<Item = (usize, [usize; 2])> {
         self.runs.iter().map(|&[b, from, to]| (b as usize, [from as usize, to as usize]))
     }
 
     /// Whether a ball's box may meet it.
-    pub(super) fn may_meet(&self, s: &Seen) -> bool {
+    pub(crate) fn may_meet(&self, s: &Seen) -> bool {
         let [u, v] = [s.u, s.v];
         u + s.r >= self.low[0]
             && u - s.r <= self.high[0]
@@ -164,18 +164,18 @@ impl Region {
 
 impl Cover {
     /// Of no ball.
-    pub(super) fn new(dexels: &Dexels) -> Result<Cover> {
+    pub(crate) fn new(dexels: &Dexels) -> Result<Cover> {
         let columns = filled("covered columns", dexels.dims[0] * dexels.dims[1], [0.0; 2])?;
         Ok(Cover { columns })
     }
 
     /// Bytes that it holds.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         self.columns.len() as u64 * 8
     }
 
     /// Takes over what the last [`Look::change`] found.
-    pub(super) fn take(&mut self, dexels: &Dexels, look: &Look) {
+    pub(crate) fn take(&mut self, dexels: &Dexels, look: &Look) {
         let mut fresh = look.fresh.iter();
         for (b, [from, to]) in look.region.runs() {
             let first = b * dexels.dims[0];
@@ -197,7 +197,7 @@ impl Cover {
     }
 
     /// All columns anew.
-    pub(super) fn whole(&mut self, dexels: &Dexels, balls: &[Seen], look: &mut Look) -> Lengths {
+    pub(crate) fn whole(&mut self, dexels: &Dexels, balls: &[Seen], look: &mut Look) -> Lengths {
         look.region.all(dexels);
         self.columns.fill([0.0; 2]);
         let lengths = look.change(self, dexels, balls);
@@ -206,7 +206,7 @@ impl Cover {
     }
 
     /// Length of the target in column `c` that is not covered.
-    pub(super) fn missing(&self, dexels: &Dexels, c: usize) -> f32 {
+    pub(crate) fn missing(&self, dexels: &Dexels, c: usize) -> f32 {
         let inside: f32 = dexels.column(c).iter().map(|i| i[1] - i[0]).sum();
         (inside - self.columns[c][1]).max(0.0)
     }
@@ -215,7 +215,7 @@ impl Cover {
 impl Look {
     /// What the region's columns would hold if the balls `of` were at the places that `seen` has
     /// for them, less what they hold now.
-    pub(super) fn exchange(
+    pub(crate) fn exchange(
         &mut self,
         cover: &Cover,
         piles: &Piles,
@@ -228,7 +228,7 @@ impl Look {
     }
 
     /// Takes over what the last [`Look::exchange`] found.
-    pub(super) fn take(
+    pub(crate) fn take(
         &mut self,
         cover: &mut Cover,
         piles: &mut Piles,
@@ -240,14 +240,14 @@ impl Look {
     }
 
     /// All balls by their lower ends.
-    pub(super) fn order(&mut self, dexels: &Dexels, balls: &[Seen]) -> &[u32] {
+    pub(crate) fn order(&mut self, dexels: &Dexels, balls: &[Seen]) -> &[u32] {
         self.region.all(dexels);
         sort(&mut self.order, &self.region, balls);
         &self.order
     }
 
     /// What the region's columns would hold of the union of `balls`, less what they hold now.
-    pub(super) fn change(&mut self, cover: &Cover, dexels: &Dexels, balls: &[Seen]) -> Lengths {
+    pub(crate) fn change(&mut self, cover: &Cover, dexels: &Dexels, balls: &[Seen]) -> Lengths {
         let Look { region, fresh, row, order, .. } = self;
         fresh.clear();
         sort(order, region, balls);
@@ -269,7 +269,7 @@ impl Look {
     }
 
     /// Adds `sign` times what each ball alone covers in the region's columns.
-    pub(super) fn alone(
+    pub(crate) fn alone(
         &mut self,
         dexels: &Dexels,
         balls: &[Seen],
@@ -295,7 +295,7 @@ impl Look {
     }
 
     /// Parts of column (a, b) inside the target and not in the union of `balls`.
-    pub(super) fn gaps(
+    pub(crate) fn gaps(
         &mut self,
         dexels: &Dexels,
         [a, b]: [usize; 2],
