@@ -1,8 +1,9 @@
 """An evaluator that shares nothing with the library: voxel centres, in numpy.
 
-D of a list of spheres against a mesh, 256 cells along its longest edge. A centre is inside the mesh where
-most of three lines through it, along x, y and z, say so by their winding. On meshes that are staircases it
-is up to 2.4e-3 off, else below 3e-4.
+D of a list of spheres against a mesh, 256 cells along its longest edge unless more are asked for. A centre is
+inside the mesh where most of three lines through it, along x, y and z, say so by their winding: about a hole
+they need not agree, so holes may be capped before. At 256 cells it is up to 2.4e-3 off on meshes that are
+staircases, else below 3e-4.
 """
 import numpy as np
 
@@ -20,6 +21,30 @@ def read_stl(path):
     words = data.decode().split()
     at = [i for i, w in enumerate(words) if w == "vertex"]
     return np.array([words[i + 1:i + 4] for i in at], float).reshape(-1, 3, 3)
+
+
+def capped(triangles):
+    """The triangles, and a fan about the mean of its points over each loop of edges that have one face."""
+    points, corners = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    faces = corners.reshape(-1, 3)
+    edges = {(int(f[k]), int(f[(k + 1) % 3])) for f in faces for k in range(3)}
+    after = {}
+    for a, b in sorted(edges):
+        if (b, a) not in edges:
+            after.setdefault(b, []).append(a)
+    fans = []
+    while after:
+        loop = [min(after)]
+        while True:
+            then = after[loop[-1]].pop()
+            if not after[loop[-1]]:
+                del after[loop[-1]]
+            if then == loop[0] or then not in after:
+                break
+            loop.append(then)
+        ring = points[loop]
+        fans += [[p, q, ring.mean(0)] for p, q in zip(ring, np.roll(ring, -1, 0))]
+    return np.concatenate([triangles, np.array(fans).reshape(-1, 3, 3)])
 
 
 def along(triangles, axis, origin, h, dims):
@@ -49,22 +74,22 @@ def along(triangles, axis, origin, h, dims):
     first = np.clip(np.ceil(at), 0, nw).astype(int)
     winding = np.zeros((nu, nv, nw + 1), np.int16)
     np.add.at(winding, (i, j, first), np.where(area > 0, 1, -1).astype(np.int16))
-    inside = np.cumsum(winding, 2)[:, :, :nw] != 0
+    inside = np.cumsum(winding, 2, dtype=np.int16)[:, :, :nw] != 0
     return np.moveaxis(inside, 2, axis)
 
 
 class Target:
     """A mesh (STL) or a mask of voxels (npy with the axes z, y, x), as cells."""
 
-    def __init__(self, path):
+    def __init__(self, path, cells=CELLS, cap=False):
         if str(path).endswith(".npy"):
             # Cells of the edge 1 from the origin.
             self.cells, self.h = np.pad(np.load(path).transpose() > 0, MARGIN), 1.0
             self.origin = np.full(3, -float(MARGIN))
             return
-        triangles = read_stl(path)
+        triangles = capped(read_stl(path)) if cap else read_stl(path)
         lo, hi = triangles.min((0, 1)), triangles.max((0, 1))
-        self.h = (hi - lo).max() / CELLS
+        self.h = (hi - lo).max() / cells
         dims = np.ceil((hi - lo) / self.h - 1e-9).astype(int)
         self.origin = (lo + hi) / 2 - (dims / 2 + MARGIN) * self.h
         dims = tuple(dims + 2 * MARGIN)
@@ -76,8 +101,9 @@ class Target:
         s = np.atleast_2d(np.asarray(spheres, float))
         s = np.column_stack([(s[:, :3] - self.origin) / self.h - 0.5, s[:, 3] / self.h])
         # Room for what reaches far out.
-        below = np.clip(np.ceil(-(s[:, :3] - s[:, 3:]).min(0)), 0, CELLS).astype(int)
-        above = np.clip(np.ceil((s[:, :3] + s[:, 3:]).max(0) - self.cells.shape), 0, CELLS).astype(int) + 1
+        most = max(self.cells.shape)
+        below = np.clip(np.ceil(-(s[:, :3] - s[:, 3:]).min(0)), 0, most).astype(int)
+        above = np.clip(np.ceil((s[:, :3] + s[:, 3:]).max(0) - self.cells.shape), 0, most).astype(int) + 1
         target = np.pad(self.cells, list(zip(below, above)))
         s[:, :3] += below
         clump = np.zeros(target.shape, bool)
