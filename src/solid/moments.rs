@@ -120,10 +120,15 @@ pub(super) fn wide_open(mesh: &Mesh, limit: u64, run: &Run) -> Result<bool> {
 
 /// Corners of the box about the faces.
 pub(super) fn bounds(mesh: &Mesh) -> Option<(Vec3, Vec3)> {
-    (0..mesh.faces.len()).flat_map(|i| mesh.corners(i)).fold(None, |b, v| match b {
-        None => Some((v, v)),
-        Some((lo, hi)) => Some((lo.inf(&v), hi.sup(&v))),
-    })
+    let first = mesh.faces.first()?[0];
+    let first = mesh.vertices[first as usize];
+    let (mut lo, mut hi) = (first, first);
+    for &v in mesh.faces.iter().flatten() {
+        let v = &mesh.vertices[v as usize];
+        lo = lo.inf(v);
+        hi = hi.sup(v);
+    }
+    Some((lo, hi))
 }
 
 /// Area of the faces.
@@ -144,7 +149,8 @@ fn of_polyhedron(mesh: &Mesh, middle: &Vec3, run: &Run) -> Moments {
         let partial = run.pool().map(chunks, |c| {
             let mut s = Sums::default();
             for i in c * CHUNK..mesh.faces.len().min((c + 1) * CHUNK) {
-                s.tetrahedron(mesh.corners(i).map(|v| v - about));
+                let [a, b, c] = mesh.corners(i);
+                s.tetrahedron([a - about, b - about, c - about]);
             }
             s
         });
@@ -176,9 +182,10 @@ impl Sums {
         let s = a + b + c;
         self.volume += det / 6.0;
         self.first += s * (det / 24.0);
-        for (k, (i, j)) in PAIRS.into_iter().enumerate() {
+        let share = det / 120.0;
+        for (second, &(i, j)) in self.second.iter_mut().zip(&PAIRS) {
             let products = s[i] * s[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
-            self.second[k] += products * (det / 120.0);
+            *second += products * share;
         }
     }
 

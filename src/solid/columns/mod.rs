@@ -116,9 +116,15 @@ impl Lattice {
     /// Number of columns whose lattice coordinate `k` is less than `x`.
     #[inline]
     pub(crate) fn below(&self, k: usize, x: f64) -> usize {
+        self.below_by(k, x, 1.0 / self.step[k])
+    }
+
+    /// The same with one over the step, where there are many.
+    #[inline]
+    pub(crate) fn below_by(&self, k: usize, x: f64, inverse: f64) -> usize {
         let n = self.dims[k];
         // Rounded up, but for whole numbers, which the steps below set right.
-        let guess = (x - self.origin[k]) / self.step[k] + 0.5;
+        let guess = (x - self.origin[k]) * inverse + 0.5;
         let mut i = if guess > 0.0 { (guess as i64 as usize).min(n) } else { 0 };
         while i > 0 && self.at(k, i - 1) >= x {
             i -= 1;
@@ -127,6 +133,11 @@ impl Lattice {
             i += 1;
         }
         i
+    }
+
+    /// One over the distances between columns.
+    pub(crate) fn inverse_steps(&self) -> [f64; 2] {
+        [1.0 / self.step[0], 1.0 / self.step[1]]
     }
 
     /// A point as (both lattice coordinates, along the column).

@@ -48,11 +48,13 @@ impl Binned {
     /// The faces of `mesh`, in no more than `limit` bytes.
     pub(super) fn new(mesh: &Mesh, lattice: &Lattice, limit: u64) -> Result<Self> {
         let mut vertices = reserve("vertices on the lattice", mesh.vertices.len())?;
-        vertices.extend(mesh.vertices.iter().map(|v| {
+        let inverse = lattice.inverse_steps();
+        for v in &mesh.vertices {
             let at = lattice.turn(v);
-            let below = [lattice.below(0, at[0]) as u32, lattice.below(1, at[1]) as u32];
-            Turned { at, below }
-        }));
+            let below = lattice.below_by(0, at[0], inverse[0]);
+            let below = [below as u32, lattice.below_by(1, at[1], inverse[1]) as u32];
+            vertices.push(Turned { at, below });
+        }
         let bands = lattice.dims[1].div_ceil(BAND);
         // Bands of a face, from its rows: those at or above its lowest vertex and below its
         // highest. A face between two rows or two columns has none.
@@ -119,23 +121,31 @@ impl Binned {
     ) -> Result<()> {
         let l = &self.lattice;
         let [p, q, r] = mesh.faces[f];
-        let p = [p, q, r].map(|v| self.vertices[v as usize].at);
+        let at = |v: u32| &self.vertices[v as usize];
+        let (p, q, r) = (at(p), at(q), at(r));
         // Cut places are clamped to the edges, so no column outside these is reached.
-        let [_, range] = extent(mesh, &self.vertices, f);
-        let begin = (range.start as usize).max(first);
-        let end = (range.end as usize).min(first + rows);
-        for b in begin..end {
+        let low = p.below[1].min(q.below[1]).min(r.below[1]) as usize;
+        let high = p.below[1].max(q.below[1]).max(r.below[1]) as usize;
+        for b in low.max(first)..high.min(first + rows) {
             let v = l.at(1, b);
-            let (mut rising, mut falling) = (None, None);
-            for (from, to) in [(p[0], p[1]), (p[1], p[2]), (p[2], p[0])] {
-                if from[1] <= v && v < to[1] {
-                    rising = Some(cut(from, to, v));
-                } else if to[1] <= v && v < from[1] {
-                    falling = Some(cut(to, from, v));
-                }
+            let (lower_p, lower_q, lower_r) = (p.at[1] <= v, q.at[1] <= v, r.at[1] <= v);
+            // One corner is alone on its side of the row.
+            let (before, alone, after, lower) = if lower_p == lower_q {
+                (q, r, p, lower_r)
+            } else if lower_q == lower_r {
+                (r, p, q, lower_p)
+            } else {
+                (p, q, r, lower_q)
+            };
+            let [rising, falling] = if lower {
+                [Cut { low: alone, high: after }, Cut { low: alone, high: before }]
+            } else {
+                [Cut { low: before, high: alone }, Cut { low: after, high: alone }]
+            };
+            let (up, down) = (rising.below(l, v), falling.below(l, v));
+            if up == down {
+                continue;
             }
-            let (Some(rising), Some(falling)) = (rising, falling) else { continue };
-            let (up, down) = (l.below(0, rising[0]), l.below(0, falling[0]));
             // Counter-clockwise on the lattice: the normal points along the column, a way out.
             let (run, turn) = if down < up { (down..up, -1) } else { (up..down, 1) };
             let count = (out.len() + run.len()) as u64;
@@ -146,20 +156,66 @@ impl Binned {
                     self.most
                 )));
             }
-            let width = falling[0] - rising[0];
+            let (from, to) = (
+                [rising.along(0, v), rising.along(2, v)],
+                [falling.along(0, v), falling.along(2, v)],
+            );
+            let width = to[0] - from[0];
             for a in run {
                 // On the row the face is a segment from rising to falling.
                 let t = if width != 0.0 {
-                    ((l.at(0, a) - rising[0]) / width).clamp(0.0, 1.0)
+                    within((l.at(0, a) - from[0]) / width, 0.0, 1.0)
                 } else {
                     0.5
                 };
-                let at = rising[1] + t * (falling[1] - rising[1]);
+                let at = from[1] + t * (to[1] - from[1]);
                 let column = ((b - first) * l.dims[0] + a) as u32;
                 push(out, Crossing { column, turn, at })?;
             }
         }
         Ok(())
+    }
+}
+
+/// Where a row cuts the edge from its lower end to its higher one.
+#[derive(Clone, Copy)]
+struct Cut<'a> {
+    low: &'a Turned,
+    high: &'a Turned,
+}
+
+impl Cut<'_> {
+    /// The place on the row `v` (coordinate 0), or along the column (2).
+    #[inline(always)]
+    fn along(&self, k: usize, v: f64) -> f64 {
+        let (p, q) = (&self.low.at, &self.high.at);
+        let t = (v - p[1]) / (q[1] - p[1]);
+        let x = p[k] + t * (q[k] - p[k]);
+        if p[k] < q[k] { within(x, p[k], q[k]) } else { within(x, q[k], p[k]) }
+    }
+
+    /// Number of columns below the place: between those of the ends, which seldom differ.
+    #[inline(always)]
+    fn below(&self, l: &Lattice, v: f64) -> usize {
+        let (p, q) = (self.low.below[0], self.high.below[0]);
+        let (least, most) = (p.min(q) as usize, p.max(q) as usize);
+        match most - least {
+            0 => least,
+            1 => least + usize::from(l.at(0, least) < self.along(0, v)),
+            _ => l.below(0, self.along(0, v)),
+        }
+    }
+}
+
+/// `x`, no less than `low` and no more than `high`.
+#[inline(always)]
+fn within(x: f64, low: f64, high: f64) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
     }
 }
 
@@ -177,13 +233,6 @@ fn extent(mesh: &Mesh, vertices: &[Turned], f: usize) -> [std::ops::Range<u32>; 
         a.min(b).min(c)..a.max(b).max(c)
     };
     [range(0), range(1)]
-}
-
-/// Where the edge from `p` up to `q` meets the row `v`: place on the row, and along the column.
-fn cut(p: [f64; 3], q: [f64; 3], v: f64) -> [f64; 2] {
-    let t = (v - p[1]) / (q[1] - p[1]);
-    let along = |k: usize| (p[k] + t * (q[k] - p[k])).clamp(p[k].min(q[k]), p[k].max(q[k]));
-    [along(0), along(2)]
 }
 
 /// Sorted by column (counting sort) and then along the column.
