@@ -4,17 +4,21 @@
 #   sh scripts/test.sh          the daily run, at most 12 minutes on 2 cores
 #   sh scripts/test.sh --full   with the long cases: bad input at the default options, and
 #                               CTest with debug assertions and with the sanitizers
+#   sh scripts/test.sh --all-codes  with every DEM code that reads our files and can be installed (LAMMPS
+#                               always is; LIGGGHTS and YADE are large)
 # Tests over third-party data run when MORULA_DATA names their folder.
 set -u
 cd "$(dirname "$0")/.." || exit 1
 . scripts/need.sh
 
 full=no
+all_codes=no
 for argument in "$@"; do
     case "$argument" in
     --full) full=yes ;;
+    --all-codes) all_codes=yes ;;
     *)
-        echo "usage: sh scripts/test.sh [--full]" >&2
+        echo "usage: sh scripts/test.sh [--full] [--all-codes]" >&2
         exit 2
         ;;
     esac
@@ -88,6 +92,15 @@ if [ -n "${MORULA_DATA:-}" ]; then
     python_with_numpy || { install python3-numpy && python_with_numpy; } ||
         skip "made hard cases" "no python3 with numpy (MORULA_PYTHON names one)"
 fi
+# DEM codes that read the files written for them.
+have lmp || install lammps || true
+have lmp || skip "what LAMMPS reads" "lmp is not installed (package lammps)"
+for code in liggghts yade; do
+    have "$code" || { [ "$all_codes" = yes ] && install "$code"; } || true
+    have "$code" && continue
+    [ "$all_codes" = yes ] && why="the package $code cannot be installed" || why="run with --all-codes"
+    skip "what $code reads" "$why"
+done
 # The dev profile: optimised, with debug assertions.
 step "cargo test" cargo test --locked --no-fail-fast
 

@@ -137,7 +137,7 @@ fn unsafe_lives_in_the_c_border_alone() {
 }
 
 /// The rooms in the order of the data, each with what stands above it.
-const ROOMS: [(&str, &[&str]); 8] = [
+const ROOMS: [(&str, &[&str]); 9] = [
     ("error", &[]),
     ("math", &["error"]),
     ("run", &["error", "math"]),
@@ -146,6 +146,7 @@ const ROOMS: [(&str, &[&str]); 8] = [
     ("measure", &["error", "math", "run", "shape", "solid"]),
     ("clump", &["error", "math", "run", "shape", "solid", "measure"]),
     ("generate", &["error", "math", "run", "shape", "solid", "measure", "clump"]),
+    ("export", &["error", "math", "run", "shape", "solid", "measure", "clump"]),
 ];
 
 /// The room of a source file: its first folder, or the file itself.

@@ -8,7 +8,6 @@ pub mod canvas;
 pub mod colour;
 pub mod error;
 mod font;
-mod read;
 mod section;
 pub mod shade;
 pub mod surface;
@@ -23,7 +22,7 @@ use buffer::Buffer;
 use camera::Camera;
 use canvas::{Align, Canvas, Rgb};
 use morula::measure::{Quality, QualityOptions, quality};
-use morula::{Run, Solid, Sphere};
+use morula::{Run, Solid, Sphere, export};
 use shade::Light;
 use std::path::Path;
 
@@ -34,7 +33,8 @@ pub const FINE: usize = 3;
 pub struct Args {
     /// The target: as for `morula clump`
     input: String,
-    /// The clump: CSV or JSON as written by `morula clump`
+    /// The clump: CSV or JSON as written by `morula clump`, or a file of a DEM code (LAMMPS, LIGGGHTS, Kratos,
+    /// Chrono, a folder of MercuryDPM)
     clump: String,
     /// Picture to write, a PNG; - is stdout
     #[arg(short, long, value_name = "FILE.png")]
@@ -77,7 +77,9 @@ pub fn run(args: &Args) -> Done {
     args.reading.seed_is_of_stone(&args.input)?;
     let bar = Bar::new("view", args.quiet);
     let run = bar.attach(Run::new(args.threads).about("")?);
-    let (mut spheres, said) = read::clump(input::file(&args.clump)?).about(&args.clump)?;
+    let read = export::read::read(input::file(&args.clump)?).about(&args.clump)?;
+    let mut spheres = read.spheres;
+    let said = read.body_frame.map(|body| if body { Frame::Body } else { Frame::Input });
     let frame = match (args.frame, said) {
         (Some(flag), Some(said)) if flag != said => {
             return Err(Fail::Usage(format!(

@@ -1,14 +1,11 @@
 //! What the program writes: clumps and meshes, one file per format.
 
-mod clump_csv;
 mod clump_json;
-mod clump_ply;
-mod clump_vtp;
 pub mod mesh;
 
 use crate::fail::{Done, Fail};
 use clap::ValueEnum;
-use morula::Sphere;
+use morula::{Sphere, export};
 use std::io::{BufWriter, IsTerminal, Write};
 use std::path::Path;
 
@@ -46,10 +43,13 @@ pub fn clump(
     figures: &serde_json::Value,
 ) -> std::io::Result<()> {
     match format {
-        ClumpFormat::Csv => clump_csv::write(out, spheres),
+        ClumpFormat::Csv => out.write_all(export::csv(spheres, &[]).as_bytes()),
         ClumpFormat::Json => clump_json::write(out, spheres, figures),
-        ClumpFormat::Vtp => clump_vtp::write(out, spheres),
-        ClumpFormat::Ply => clump_ply::write(out, spheres),
+        ClumpFormat::Vtp => out.write_all(export::vtp(spheres, &[]).as_bytes()),
+        ClumpFormat::Ply => {
+            let bytes = export::ply(spheres, 3).map_err(std::io::Error::other)?;
+            out.write_all(&bytes)
+        }
     }
 }
 

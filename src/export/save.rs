@@ -1,0 +1,57 @@
+use super::{File, Place};
+use crate::error::{Error, Result};
+use std::ffi::OsString;
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Writes the files of a format: each under another name beside its own, all flushed, then all renamed, so
+/// that no half-written file has the name asked for. What stands there and is no file (a device, a
+/// pipe) is written to as it is; a link stays one.
+pub fn save(files: &[File], path: &Path) -> Result<()> {
+    let mut made: Vec<(PathBuf, PathBuf)> = Vec::new();
+    let written = files.iter().try_for_each(|file| {
+        let target = place(path, file.place);
+        let target = fs::canonicalize(&target).unwrap_or(target);
+        let said = |e: std::io::Error| Error::Io(format!("{}: {e}", target.display()));
+        if let (Place::Below(_), Some(folder)) = (file.place, target.parent()) {
+            fs::create_dir_all(folder).map_err(said)?;
+        }
+        if fs::metadata(&target).is_ok_and(|m| !m.is_file() && !m.is_dir()) {
+            let mut out = fs::OpenOptions::new().write(true).open(&target).map_err(said)?;
+            return out.write_all(&file.bytes).and_then(|()| out.flush()).map_err(said);
+        }
+        let part = beside(&target, "part");
+        made.push((part.clone(), target.clone()));
+        let mut out = fs::File::create(&part).map_err(said)?;
+        out.write_all(&file.bytes).and_then(|()| out.sync_all()).map_err(said)
+    });
+    let renamed = written.and_then(|()| {
+        made.iter().try_for_each(|(part, target)| {
+            fs::rename(part, target).map_err(|e| Error::Io(format!("{}: {e}", target.display())))
+        })
+    });
+    if renamed.is_err() {
+        // What was renamed is whole; the rest goes.
+        made.iter().for_each(|(part, _)| {
+            let _ = fs::remove_file(part);
+        });
+    }
+    renamed
+}
+
+fn place(path: &Path, place: Place) -> PathBuf {
+    match place {
+        Place::At => path.to_path_buf(),
+        Place::Beside(ending) => beside(path, ending),
+        Place::Below(name) => path.join(name),
+    }
+}
+
+/// The path with an ending added to its own.
+fn beside(path: &Path, ending: &str) -> PathBuf {
+    let mut name = OsString::from(path.as_os_str());
+    name.push(".");
+    name.push(ending);
+    name.into()
+}
