@@ -53,6 +53,7 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STATUS_NOT_WANTED = 18_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STATUS_NO_SPHERES = 19_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STATUS_INTERNAL = 20_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STATUS_NO_MASSES = 21_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_LOG_INFO = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_LOG_WARNING = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_IMPORT_OPTIONS = 1_c_int32_t

@@ -109,6 +109,9 @@
 /// A defect of the library itself: please report it.
 #define MORULA_STATUS_INTERNAL 20
 
+/// No masses of the spheres satisfy the constraints.
+#define MORULA_STATUS_NO_MASSES 21
+
 /// Log level: what a call did.
 #define MORULA_LOG_INFO 0
 

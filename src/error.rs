@@ -65,6 +65,9 @@ pub enum Error {
     /// No sphere satisfies the constraints.
     #[error("{0}")]
     NoSpheres(String),
+    /// No masses of the spheres satisfy the constraints.
+    #[error("{0}")]
+    NoMasses(String),
     /// A defect of the library itself: please report it.
     #[error("{0}")]
     Internal(String),
@@ -94,6 +97,7 @@ impl Error {
             Error::NotWanted(_) => 18,
             Error::NoSpheres(_) => 19,
             Error::Internal(_) => 20,
+            Error::NoMasses(_) => 21,
         }
     }
 }
@@ -123,6 +127,7 @@ impl Error {
             | TooLarge(text)
             | NotWanted(text)
             | NoSpheres(text)
+            | NoMasses(text)
             | Internal(text) => {
                 *text = format!("{what}: {text}");
             }

@@ -4,9 +4,10 @@
 //! The way of the data, and the order of the modules:
 //! [`shape`] (what the user hands in) → [`solid`] (signed distance and exact
 //! moments) → [`measure`] (how far a clump is from its solid) → [`clump`] (the
-//! result) → [`generate`] (the methods that make it) → `export` (files that DEM
-//! codes read; with the feature `io`). A module imports only from those before
-//! it. [`ffi`] is the C ABI and the only `unsafe`.
+//! result) → [`generate`] (the methods that make it) and [`mass`] (what a solver
+//! takes of it) → `export` (files that DEM codes read; with the feature `io`). A
+//! module imports only from those before it, and `mass` not from `generate`.
+//! [`ffi`] is the C ABI and the only `unsafe`.
 //!
 //! The library is unit-free: lengths are in the caller's unit, moments are per
 //! unit density, and a density is mass per (that length)³.
@@ -17,6 +18,7 @@ pub mod error;
 pub mod export;
 pub mod ffi;
 pub mod generate;
+pub mod mass;
 pub mod math;
 pub mod measure;
 pub mod run;

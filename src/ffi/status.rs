@@ -46,6 +46,8 @@ pub const MORULA_STATUS_NOT_WANTED: i32 = 18;
 pub const MORULA_STATUS_NO_SPHERES: i32 = 19;
 /// A defect of the library itself: please report it.
 pub const MORULA_STATUS_INTERNAL: i32 = 20;
+/// No masses of the spheres satisfy the constraints.
+pub const MORULA_STATUS_NO_MASSES: i32 = 21;
 
 /// The version of the library that runs: 1000000 major + 1000 minor + patch.
 ///
@@ -83,7 +85,7 @@ pub extern "C" fn morula_version_string() -> *const c_char {
 /// Threads: any thread at any time. Never fails.
 #[unsafe(no_mangle)]
 pub extern "C" fn morula_status_name(status: i32) -> *const c_char {
-    const NAMES: [&std::ffi::CStr; 21] = [
+    const NAMES: [&std::ffi::CStr; 22] = [
         c"OK",
         c"NULL_POINTER",
         c"INVALID_ARGUMENT",
@@ -105,6 +107,7 @@ pub extern "C" fn morula_status_name(status: i32) -> *const c_char {
         c"NOT_WANTED",
         c"NO_SPHERES",
         c"INTERNAL",
+        c"NO_MASSES",
     ];
     let name = usize::try_from(status).ok().and_then(|i| NAMES.get(i));
     name.unwrap_or(&c"UNKNOWN").as_ptr()
@@ -163,12 +166,13 @@ mod tests {
             (Error::NotWanted(s()), MORULA_STATUS_NOT_WANTED, "NOT_WANTED"),
             (Error::NoSpheres(s()), MORULA_STATUS_NO_SPHERES, "NO_SPHERES"),
             (Error::Internal(s()), MORULA_STATUS_INTERNAL, "INTERNAL"),
+            (Error::NoMasses(s()), MORULA_STATUS_NO_MASSES, "NO_MASSES"),
         ];
         for (error, status, name) in pairs {
             assert_eq!(error.status(), status);
             assert_eq!(unsafe { CStr::from_ptr(morula_status_name(status)) }.to_str(), Ok(name));
         }
-        for unknown in [-1, 21, i32::MAX, i32::MIN] {
+        for unknown in [-1, 22, i32::MAX, i32::MIN] {
             assert_eq!(unsafe { CStr::from_ptr(morula_status_name(unknown)) }, c"UNKNOWN");
         }
     }

@@ -91,6 +91,7 @@ fn status_name(error: &Error) -> &'static str {
         Error::TooLarge(_) => "TOO_LARGE",
         Error::NotWanted(_) => "NOT_WANTED",
         Error::NoSpheres(_) => "NO_SPHERES",
+        Error::NoMasses(_) => "NO_MASSES",
         _ => "INTERNAL",
     }
 }
