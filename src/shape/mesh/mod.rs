@@ -11,7 +11,7 @@ mod parts;
 mod patches;
 mod repair;
 mod topology;
-mod tree;
+pub(crate) mod tree;
 mod weld;
 
 use super::{Bodies, Body, ImportOptions, Report, Shape};

@@ -1,6 +1,7 @@
 //! Exact distances to the surface: to the triangles of a mesh, to the faces
-//! between solid and empty cells of voxels. The only file that names parry.
+//! between solid and empty cells of voxels.
 
+mod boxes;
 mod faces;
 
 use super::triangle;
@@ -8,10 +9,8 @@ use super::winding::Winding;
 use crate::error::{Error, Result, fits, reserve};
 use crate::math::Vec3;
 use crate::shape::{Body, Mesh, Voxels};
+use boxes::{Boxes, Lie};
 use faces::{Occupied, Rectangle};
-use parry3d::bounding_volume::Aabb;
-use parry3d::math::Vector;
-use parry3d::partitioning::{Bvh, BvhBuildStrategy, BvhNode};
 use std::mem::size_of;
 
 /// What is nearest to a point.
@@ -28,15 +27,13 @@ pub struct Nearest {
 
 /// A tree over the surface of a body.
 pub struct Surface {
-    tree: Bvh,
+    tree: Boxes,
     leaves: Leaves,
     bytes: u64,
 }
 
-/// Bytes of the tree for each leaf: two nodes side by side, links to parents and from leaves;
-/// and of what building it takes besides: boxes, and the leaves once more.
-const TREE: u64 = (2 * size_of::<BvhNode>() + 3 * size_of::<usize>()) as u64;
-const BUILDING: u64 = (size_of::<Aabb>() + size_of::<BvhNode>()) as u64;
+/// Bytes of a face in the tree, and while that is built.
+const TREE: u64 = boxes::BYTES + boxes::BUILDING;
 /// … and of a triangle and of a rectangle.
 const TRIANGLE: u64 = size_of::<[Vec3; 3]>() as u64;
 const RECTANGLE: u64 = size_of::<Rectangle>() as u64;
@@ -71,7 +68,7 @@ impl Surface {
     fn of_mesh(mesh: &Mesh, limit: u64) -> Result<Surface> {
         let faces = mesh.faces.len() as u64;
         let winding = Winding::most_bytes(mesh.faces.len());
-        check(faces, faces * (TREE + BUILDING + TRIANGLE) + winding, limit)?;
+        check(faces, faces * (TREE + TRIANGLE) + winding, limit)?;
         let mut triangles = reserve("the surface tree", mesh.faces.len())?;
         for (i, face) in mesh.faces.iter().enumerate() {
             if face.iter().any(|&v| v as usize >= mesh.vertices.len()) {
@@ -86,30 +83,28 @@ impl Surface {
             }
             triangles.push(t);
         }
-        let mut boxes = reserve("the surface tree", triangles.len())?;
-        boxes.extend(triangles.iter().map(|[a, b, c]| bounds(a.inf(b).inf(c), a.sup(b).sup(c))));
-        let tree = build(boxes)?;
+        let corners = |i: u32| triangles.get(i as usize).copied().unwrap_or_default();
+        let tree = Boxes::new(checked(triangles.len())?, corners, Lie::Turned)?;
         let winding = Winding::new(mesh)?;
-        let bytes = faces * (TREE + TRIANGLE) + winding.bytes();
+        let bytes = tree.bytes() + faces * TRIANGLE + winding.bytes();
         Ok(Surface { tree, leaves: Leaves::Triangles(triangles, winding), bytes })
     }
 
     fn of_voxels(voxels: &Voxels, limit: u64) -> Result<Surface> {
         let bits = voxels.cells.len() as u64 / 8;
-        let total = |faces: u64| bits + faces * (TREE + BUILDING + RECTANGLE);
+        let total = |faces: u64| bits + faces * (TREE + RECTANGLE);
         // How many rectangles there are is known when they are made, so they are counted then.
-        let most = limit.saturating_sub(bits) / (TREE + BUILDING + RECTANGLE);
+        let most = limit.saturating_sub(bits) / (TREE + RECTANGLE);
         let rectangles = faces::rectangles(voxels, most)?;
         let found = rectangles.len() as u64;
         check(found, total(found), limit)?;
         let occupied = Occupied::new(voxels)?;
-        let mut boxes = reserve("the surface tree", rectangles.len())?;
-        boxes.extend(rectangles.iter().map(|r| {
-            let (lo, hi) = r.bounds(&voxels.spacing);
-            bounds(lo, hi)
-        }));
-        let tree = build(boxes)?;
-        let bytes = bits + found * (TREE + RECTANGLE);
+        let corners = |i: u32| {
+            let ends = rectangles.get(i as usize).map(|r| r.bounds(&voxels.spacing));
+            ends.map_or_else(Default::default, |(lo, hi)| [lo, hi, hi])
+        };
+        let tree = Boxes::new(checked(rectangles.len())?, corners, Lie::Straight)?;
+        let bytes = bits + tree.bytes() + found * RECTANGLE;
         Ok(Surface { tree, leaves: Leaves::Rectangles(rectangles, occupied), bytes })
     }
 
@@ -129,23 +124,17 @@ impl Surface {
         if !p.iter().all(|c| c.abs() <= 1e150) {
             return None;
         }
-        let at = Vector::new(p.x, p.y, p.z);
         let reach2 = if reach < 1e150 { reach * reach } else { f64::MAX };
-        // Squared distances: the same order, no roots.
-        let to_box = |node: &BvhNode, _: f64| {
-            (node.mins() - at).max(at - node.maxs()).max(Vector::ZERO).length_squared()
-        };
-        let point_of = |leaf: u32| match &self.leaves {
-            Leaves::Triangles(all, _) => all.get(leaf as usize).map(|t| triangle::closest(t, p)),
-            Leaves::Rectangles(all, occupied) => {
-                let (lo, hi) = all.get(leaf as usize)?.bounds(&occupied.spacing);
-                Some(p.sup(&lo).inf(&hi))
-            }
-        };
-        let (leaf, (distance2, point)) = self.tree.find_best(reach2, to_box, |leaf, _| {
-            let q = point_of(leaf)?;
-            Some(((q - p).norm_squared(), q))
-        })?;
+        let distance2 = |q: Vec3| ((q - p).norm_squared(), q);
+        let (leaf, distance2, point) = match &self.leaves {
+            Leaves::Triangles(all, _) => self.tree.nearest(p, reach2, |leaf| {
+                distance2(all.get(leaf as usize).map_or(*p, |t| triangle::closest(t, p)))
+            }),
+            Leaves::Rectangles(all, occupied) => self.tree.nearest(p, reach2, |leaf| {
+                let ends = all.get(leaf as usize).map(|r| r.bounds(&occupied.spacing));
+                distance2(ends.map_or(*p, |(lo, hi)| p.sup(&lo).inf(&hi)))
+            }),
+        }?;
         let normal = match &self.leaves {
             Leaves::Triangles(all, _) => all.get(leaf as usize).map(triangle::normal)?,
             Leaves::Rectangles(all, _) => all.get(leaf as usize)?.normal(),
@@ -170,26 +159,18 @@ impl Surface {
     }
 }
 
-fn bounds(lo: Vec3, hi: Vec3) -> Aabb {
-    Aabb { mins: Vector::new(lo.x, lo.y, lo.z), maxs: Vector::new(hi.x, hi.y, hi.z) }
-}
-
 /// Refuses a surface that may take more than `limit` bytes.
 fn check(faces: u64, bytes: u64, limit: u64) -> Result<()> {
     fits(format_args!("a tree over the surface of {faces} faces"), bytes, limit)
 }
 
-fn build(boxes: Vec<Aabb>) -> Result<Bvh> {
-    if boxes.is_empty() {
-        return Err(Error::Empty("the surface has no face".into()));
+/// The number of faces, of which there must be some and not too many.
+fn checked(faces: usize) -> Result<u32> {
+    match u32::try_from(faces) {
+        Ok(0) => Err(Error::Empty("the surface has no face".into())),
+        Ok(n) if n < 1 << 30 => Ok(n),
+        _ => Err(Error::TooLarge(format!("the surface has {faces} faces"))),
     }
-    if boxes.len() >= 1 << 30 {
-        return Err(Error::TooLarge(format!("the surface has {} faces", boxes.len())));
-    }
-    // Parry reserves infallibly: see first that so much is to be had.
-    let bytes = (TREE + BUILDING) as usize * boxes.len();
-    drop(reserve::<u8>("the surface tree", bytes)?);
-    Ok(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
 }
 
 #[cfg(test)]
