@@ -6,6 +6,7 @@ mod baselines;
 pub mod best;
 pub mod cover;
 mod inscribed;
+mod lazy;
 mod many;
 pub mod mss;
 mod packed;

@@ -2,30 +2,33 @@
 //! (Yuan 2019, algorithm 2).
 //!
 //! Points lie in chunks of 64 that are close together, one bit each: a chunk that a ball misses
-//! or holds whole is not looked at point by point. Weights are whole numbers, so that sums do not
-//! depend on their order and the lazy choice (Minoux 1978) is that of the plain algorithm.
+//! or holds whole is not looked at point by point. Chunks stand in a tree of eights, whose boxes
+//! are compared with a ball together; those without a point left are passed over. Weights are whole
+//! numbers, so that sums do not depend on their order and the lazy choice is that of the plain
+//! algorithm.
 
 use super::ball::Ball;
-use crate::error::{Result, filled, reserve};
+use super::lazy::Lazy;
+use crate::error::{Result, collected, reserve};
 use crate::run::Pool;
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
 use wide::f32x8;
 
 /// A point and its weight.
 pub(super) type Point = ([f32; 3], u32);
 
-/// Chunks of points under one box.
-const GROUP: usize = 16;
 /// Balls that a thread takes at once.
 const CHUNK: usize = 128;
+/// Where boxes stand that are none.
+const NOWHERE: f32 = 1e15;
 
 /// Points, and which of them no ball holds yet.
 #[derive(Clone)]
 pub(super) struct Points {
     chunks: Vec<Chunk>,
-    groups: Vec<Box>,
-    left: Vec<Left>,
+    /// Points of each chunk that no ball holds.
+    left: Vec<u64>,
+    /// Over each eight of the level below, the first over chunks, the last a single one.
+    levels: Vec<Vec<Eight>>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -34,9 +37,18 @@ struct Box {
     high: [f32; 3],
 }
 
+/// Eight boxes, and the weight of the points in each that no ball holds.
+#[derive(Clone)]
+struct Eight {
+    low: [f32x8; 3],
+    high: [f32x8; 3],
+    left: [u64; 8],
+    /// A bit for each of which that is not 0.
+    open: u32,
+}
+
 #[derive(Clone)]
 struct Chunk {
-    bounds: Box,
     points: [[f32x8; 3]; 8],
     weights: Weights,
 }
@@ -45,19 +57,6 @@ struct Chunk {
 enum Weights {
     Same(u32),
     Each(std::boxed::Box<[u32; 64]>),
-}
-
-/// Points of a chunk that no ball holds, and their weight.
-#[derive(Debug, Clone, Copy)]
-struct Left {
-    bits: u64,
-    weight: u64,
-}
-
-enum Lies {
-    Out,
-    In,
-    Across,
 }
 
 impl Box {
@@ -70,32 +69,64 @@ impl Box {
         }
     }
 
+    fn of<'a>(all: impl IntoIterator<Item = &'a Box>) -> Box {
+        let mut bounds = Box::EMPTY;
+        all.into_iter().for_each(|b| bounds.add(b));
+        bounds
+    }
+}
+
+impl Eight {
+    fn new(boxes: &[Box], weights: &[u64]) -> Eight {
+        let lanes = |f: &dyn Fn(&Box) -> f32| {
+            f32x8::new(std::array::from_fn(|l| boxes.get(l).map_or(NOWHERE, f)))
+        };
+        let left = std::array::from_fn(|l| weights.get(l).copied().unwrap_or(0));
+        Eight {
+            low: std::array::from_fn(|a| lanes(&|b| b.low[a])),
+            high: std::array::from_fn(|a| lanes(&|b| b.high[a])),
+            left,
+            open: (0..8).filter(|&l| left[l] > 0).map(|l| 1 << l).sum(),
+        }
+    }
+
+    /// Which boxes have points left that the ball may hold, and which of these lie in it.
     #[inline(always)]
-    fn lies(&self, ball: &Ball) -> Lies {
-        let (mut near, mut far) = (0.0f32, 0.0f32);
+    fn meets(&self, ball: &Ball) -> (u32, u32) {
+        let (mut near, mut far) = (f32x8::ZERO, f32x8::ZERO);
         for a in 0..3 {
-            let (x, y) = (self.low[a] - ball.center[a], ball.center[a] - self.high[a]);
-            let out = x.max(y).max(0.0);
+            let at = f32x8::splat(ball.center[a]);
+            let (x, y) = (self.low[a] - at, at - self.high[a]);
+            let out = x.fast_max(y).fast_max(f32x8::ZERO);
             near += out * out;
-            let over = x.abs().max(y.abs());
+            let over = x.abs().fast_max(y.abs());
             far += over * over;
         }
         // Rounding must not tell a chunk's points apart from its box: a hair to each side.
         let r2 = ball.radius * ball.radius;
-        if near > r2 * 1.00001 {
-            Lies::Out
-        } else if far < r2 * 0.99999 {
-            Lies::In
-        } else {
-            Lies::Across
+        let met = near.simd_le(f32x8::splat(r2 * 1.00001)).to_bitmask() & self.open;
+        (met, far.simd_lt(f32x8::splat(r2 * 0.99999)).to_bitmask() & met)
+    }
+
+    fn take(&mut self, lane: usize, weight: u64) {
+        self.left[lane] -= weight;
+        if self.left[lane] == 0 {
+            self.open &= !(1 << lane);
         }
     }
 }
 
+/// The numbers of the bits of a mask.
+fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = (mask != 0).then(|| mask.trailing_zeros() as usize)?;
+        mask &= mask - 1;
+        Some(bit)
+    })
+}
+
 impl Chunk {
     fn of(some: &[Point]) -> Chunk {
-        let mut bounds = Box::EMPTY;
-        some.iter().for_each(|(p, _)| bounds.add(&Box { low: *p, high: *p }));
         let at = |i: usize, a: usize| some.get(i).map_or(0.0, |(p, _)| p[a]);
         let lanes = |k: usize, a: usize| f32x8::new(std::array::from_fn(|l| at(8 * k + l, a)));
         let points = std::array::from_fn(|k| std::array::from_fn(|a| lanes(k, a)));
@@ -105,7 +136,7 @@ impl Chunk {
         } else {
             Weights::Each(std::boxed::Box::new(std::array::from_fn(weight)))
         };
-        Chunk { bounds, points, weights }
+        Chunk { points, weights }
     }
 
     #[inline(always)]
@@ -140,61 +171,78 @@ impl Chunk {
 impl Points {
     /// Of several sets; points of one set share chunks.
     pub(super) fn new(sets: Vec<Vec<Point>>) -> Result<Points> {
+        let what = "the points of the cover";
         let total = sets.iter().map(|s| s.len().div_ceil(64)).sum();
-        let mut chunks = reserve("the points of the cover", total)?;
-        let mut left = reserve("the points of the cover", total)?;
+        let mut chunks = reserve(what, total)?;
+        let (mut left, mut boxes, mut weights) =
+            (reserve(what, total)?, reserve(what, total)?, reserve(what, total)?);
         for mut set in sets {
             gather(&mut set);
             for some in set.chunks(64) {
                 let chunk = Chunk::of(some);
                 let bits = u64::MAX >> (64 - some.len());
-                left.push(Left { bits, weight: chunk.weight(bits) });
+                left.push(bits);
+                weights.push(chunk.weight(bits));
+                boxes.push(bounds(some));
                 chunks.push(chunk);
             }
         }
-        let groups = chunks.chunks(GROUP).map(|some: &[Chunk]| {
-            let mut bounds = Box::EMPTY;
-            some.iter().for_each(|c| bounds.add(&c.bounds));
-            bounds
-        });
-        Ok(Points { groups: groups.collect(), chunks, left })
+        let mut levels = Vec::new();
+        loop {
+            let pairs = boxes.chunks(8).zip(weights.chunks(8));
+            let level: Vec<Eight> = collected(what, pairs.map(|(b, w)| Eight::new(b, w)))?;
+            let last = level.len() <= 1;
+            levels.push(level);
+            if last {
+                return Ok(Points { chunks, left, levels });
+            }
+            boxes = collected(what, boxes.chunks(8).map(Box::of))?;
+            weights = collected(what, weights.chunks(8).map(|w| w.iter().sum()))?;
+        }
     }
 
     /// Weight of all points that no ball holds.
     pub(super) fn left(&self) -> u64 {
-        self.left.iter().map(|l| l.weight).sum()
+        self.levels.last().and_then(|l| l.first()).map_or(0, |e| e.left.iter().sum())
     }
 
     /// Calls `f` for each chunk with the bits of its points that the ball holds and none did.
     pub(super) fn held(&self, ball: &Ball, mut f: impl FnMut(usize, u64)) {
-        for (g, bounds) in self.groups.iter().enumerate() {
-            if let Lies::Out = bounds.lies(ball) {
-                continue;
-            }
-            let first = g * GROUP;
-            let last = self.chunks.len().min(first + GROUP);
-            let some = self.chunks[first..last].iter().zip(&self.left[first..last]);
-            for (k, (chunk, left)) in some.enumerate() {
-                if left.bits == 0 {
-                    continue;
-                }
-                match chunk.bounds.lies(ball) {
-                    Lies::Out => {}
-                    Lies::In => f(first + k, left.bits),
-                    Lies::Across => f(first + k, chunk.held(ball) & left.bits),
-                }
+        self.below(self.levels.len(), 0, ball, &mut f);
+    }
+
+    fn below(&self, level: usize, at: usize, ball: &Ball, f: &mut impl FnMut(usize, u64)) {
+        let Some(eight) = self.levels.get(level - 1).and_then(|l| l.get(at)) else { return };
+        let (met, within) = eight.meets(ball);
+        for lane in bits(met) {
+            let k = 8 * at + lane;
+            if level > 1 {
+                self.below(level - 1, k, ball, f);
+            } else if within >> lane & 1 == 1 {
+                f(k, self.left[k]);
+            } else {
+                f(k, self.chunks[k].held(ball) & self.left[k]);
             }
         }
     }
 
     /// Weight of the points that the ball holds and no other does yet.
     pub(super) fn gain(&self, ball: &Ball) -> u64 {
-        let mut sum = 0;
-        self.held(ball, |k, bits| {
-            let left = self.left[k];
-            sum += if bits == left.bits { left.weight } else { self.chunks[k].weight(bits) };
+        self.gain_below(self.levels.len(), 0, ball)
+    }
+
+    fn gain_below(&self, level: usize, at: usize, ball: &Ball) -> u64 {
+        let Some(eight) = self.levels.get(level - 1).and_then(|l| l.get(at)) else { return 0 };
+        let (met, within) = eight.meets(ball);
+        let whole: u64 = bits(within).map(|lane| eight.left[lane]).sum();
+        let parts = bits(met & !within).map(|lane| {
+            let k = 8 * at + lane;
+            match level {
+                1 => self.chunks[k].weight(self.chunks[k].held(ball) & self.left[k]),
+                _ => self.gain_below(level - 1, k, ball),
+            }
         });
-        sum
+        whole + parts.sum::<u64>()
     }
 
     /// The ball's points are held from now on.
@@ -203,9 +251,12 @@ impl Points {
         self.held(ball, |k, bits| held.push((k, bits)));
         for (k, bits) in held {
             let weight = self.chunks[k].weight(bits);
-            let left = &mut self.left[k];
-            left.bits &= !bits;
-            left.weight -= weight;
+            self.left[k] &= !bits;
+            let mut at = k;
+            for level in &mut self.levels {
+                level[at / 8].take(at % 8, weight);
+                at /= 8;
+            }
         }
     }
 }
@@ -214,10 +265,7 @@ impl Points {
 pub(super) struct Choice {
     points: Points,
     balls: Vec<Ball>,
-    heap: BinaryHeap<(u64, Reverse<usize>)>,
-    /// For how many chosen balls each gain was counted.
-    counted: Vec<usize>,
-    chosen: usize,
+    lazy: Lazy,
     /// Gains counted.
     pub counts: u64,
 }
@@ -229,31 +277,21 @@ impl Choice {
             let some = chunks.get(i).copied().unwrap_or_default();
             some.iter().map(|b| points.gain(b)).collect::<Vec<u64>>()
         });
-        let mut first = reserve("the gains of candidates", balls.len())?;
-        first.extend(gains.into_iter().flatten().enumerate().map(|(i, gain)| (gain, Reverse(i))));
-        let counted = filled("the gains of candidates", balls.len(), 0usize)?;
-        let heap = BinaryHeap::from(first);
+        let lazy = Lazy::counted(gains.into_iter().flatten(), balls.len())?;
         let counts = balls.len() as u64;
-        Ok(Choice { points, balls, heap, counted, chosen: 0, counts })
+        Ok(Choice { points, balls, lazy, counts })
     }
 
     /// The ball that holds the greatest weight that those before do not, the first of equal ones,
     /// and that weight; `None` when no ball holds more.
     pub(super) fn next(&mut self) -> Option<(usize, u64)> {
-        while let Some((gain, Reverse(i))) = self.heap.pop() {
-            if gain == 0 {
-                return None;
-            }
-            if self.counted[i] == self.chosen {
-                self.points.hold(&self.balls[i]);
-                self.chosen += 1;
-                return Some((i, gain));
-            }
-            self.counted[i] = self.chosen;
-            self.counts += 1;
-            self.heap.push((self.points.gain(&self.balls[i]), Reverse(i)));
-        }
-        None
+        let Choice { points, balls, lazy, counts } = self;
+        let (i, gain) = lazy.best(|i| {
+            *counts += 1;
+            points.gain(&balls[i])
+        })?;
+        points.hold(&balls[i]);
+        Some((i, gain))
     }
 }
 
@@ -270,14 +308,19 @@ pub(super) fn choose(points: Vec<[f32; 3]>, balls: &[Ball], n: usize) -> Result<
     Ok(chosen)
 }
 
+fn bounds(points: &[Point]) -> Box {
+    let mut bounds = Box::EMPTY;
+    points.iter().for_each(|(p, _)| bounds.add(&Box { low: *p, high: *p }));
+    bounds
+}
+
 /// Sorts so that points next to each other in the list are next to each other in space: halves
 /// across the longest extent, in whole chunks.
 fn gather(points: &mut [Point]) {
     if points.len() <= 64 {
         return;
     }
-    let mut bounds = Box::EMPTY;
-    points.iter().for_each(|(p, _)| bounds.add(&Box { low: *p, high: *p }));
+    let bounds = bounds(points);
     let extent = |a: usize| bounds.high[a] - bounds.low[a];
     let longest = (0..3).max_by(|&a, &b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
     let half = points.len().div_ceil(128) * 64;
@@ -290,6 +333,7 @@ fn gather(points: &mut [Point]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cmp::Reverse;
 
     struct Noise(u64);
 

@@ -7,10 +7,10 @@
 //! ball is taken next that comes near most of the points that none is near yet.
 
 use super::super::GenerateOptions;
+use super::super::lazy::Lazy;
 use super::super::surface_fit::points::Points;
 use super::ground::Ground;
 use super::growing::Growing;
-use super::lazy::Lazy;
 use crate::clump::{Clump, Stopped};
 use crate::error::{Result, filled, push};
 use crate::math::{Sphere, Vec3};
@@ -75,8 +75,9 @@ pub(in super::super) fn ferellec_mcdowell(
                 break 'all stopped;
             }
             let gain = |i: usize| balls.get(i).map_or(0, |s| gain_of(s, near, &left));
-            let Some(s) = lazy.best(gain).and_then(|i| balls.get(i)) else { break };
-            if !growing.spheres().is_empty() && gain_of(s, near, &left) < few {
+            let Some((i, gained)) = lazy.best(gain) else { break };
+            let Some(s) = balls.get(i) else { break };
+            if !growing.spheres().is_empty() && gained < few {
                 break;
             }
             left.retain(|p| !is_near(s, near, p));

@@ -8,7 +8,6 @@ mod favier;
 mod ferellec_mcdowell;
 mod ground;
 mod growing;
-mod lazy;
 mod uniform_grid;
 
 pub(super) use euclidean::euclidean;

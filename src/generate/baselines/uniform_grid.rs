@@ -3,9 +3,9 @@
 //! hang together, Li, Xu and Meng 2015).
 
 use super::super::GenerateOptions;
+use super::super::lazy::Lazy;
 use super::ground::Ground;
 use super::growing::Growing;
-use super::lazy::Lazy;
 use crate::clump::{Clump, Stopped};
 use crate::error::{Result, push};
 use crate::math::{Sphere, Vec3};
@@ -32,7 +32,8 @@ pub(in super::super) fn uniform_grid(
         if let Some(stopped) = growing.done(run) {
             break stopped;
         }
-        let Some(i) = lazy.best(|i| candidates.get(i).map_or(0, |s| growing.gain(s))) else {
+        let gain = |i: usize| candidates.get(i).map_or(0, |s| growing.gain(s));
+        let Some((i, _)) = lazy.best(gain) else {
             break if ground.least > 0.0 { Stopped::Radius } else { Stopped::Exhausted };
         };
         let Some(s) = candidates.get(i) else { continue };

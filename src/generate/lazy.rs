@@ -15,15 +15,25 @@ pub(super) struct Lazy {
 
 impl Lazy {
     /// Of candidates none of which gains more than its bound.
-    pub fn new(bounds: &[u64]) -> Result<Lazy> {
-        let mut heap = reserve("the order of candidates", bounds.len())?;
-        heap.extend(bounds.iter().zip(0u32..).map(|(&bound, i)| (bound, Reverse(i))));
-        let counted = filled("the order of candidates", bounds.len(), 0u32)?;
+    pub(super) fn new(bounds: &[u64]) -> Result<Lazy> {
+        Lazy::of(bounds.iter().copied(), bounds.len(), 0)
+    }
+
+    /// Of `count` candidates whose gains for the first choice are known.
+    pub(super) fn counted(gains: impl Iterator<Item = u64>, count: usize) -> Result<Lazy> {
+        Lazy::of(gains, count, 1)
+    }
+
+    fn of(bounds: impl Iterator<Item = u64>, count: usize, choice: u32) -> Result<Lazy> {
+        let mut heap = reserve("the order of candidates", count)?;
+        heap.extend(bounds.take(count).zip(0u32..).map(|(bound, i)| (bound, Reverse(i))));
+        let counted = filled("the order of candidates", count, choice)?;
         Ok(Lazy { heap: BinaryHeap::from(heap), counted, choice: 0 })
     }
 
-    /// Takes out the candidate that gains most, of equal ones the first; none if none gains.
-    pub fn best(&mut self, mut gain: impl FnMut(usize) -> u64) -> Option<usize> {
+    /// Takes out the candidate that gains most, of equal ones the first, and says what it gains;
+    /// none if none gains.
+    pub(super) fn best(&mut self, mut gain: impl FnMut(usize) -> u64) -> Option<(usize, u64)> {
         self.choice += 1;
         while let Some((bound, Reverse(i))) = self.heap.pop() {
             if bound == 0 {
@@ -31,7 +41,7 @@ impl Lazy {
             }
             let counted = self.counted.get_mut(i as usize)?;
             if *counted == self.choice {
-                return Some(i as usize);
+                return Some((i as usize, bound));
             }
             *counted = self.choice;
             self.heap.push((gain(i as usize), Reverse(i)));
@@ -67,10 +77,11 @@ mod tests {
         let mut lazy = Lazy::new(&bounds).unwrap();
         let (mut left, mut counts) = (vec![true; 400], 0);
         let mut chosen = Vec::new();
-        while let Some(i) = lazy.best(|i| {
+        while let Some((i, most)) = lazy.best(|i| {
             counts += 1;
             gain(&lists[i], &left)
         }) {
+            assert_eq!(most, gain(&lists[i], &left));
             lists[i].iter().for_each(|&n| left[n] = false);
             chosen.push(i);
         }
