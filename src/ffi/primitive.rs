@@ -1,10 +1,11 @@
 //! The built-in analytic particles by name.
 
 use super::guard::{copy_text, guard, require, slice, text};
-use super::shape::{give_shape, import, morula_shape, put};
+use super::shape::{make, morula_shape, put};
 use super::structs::morula_import_options;
 use crate::error::Error;
-use crate::shape::{Primitive, Shape};
+use crate::run::Run;
+use crate::shape::{ImportOptions, Primitive, Shape};
 use std::ffi::{CStr, c_char};
 
 const NAMES: [&CStr; Primitive::NAMES.len()] = [
@@ -143,9 +144,7 @@ pub unsafe extern "C" fn morula_shape_from_primitive(
     options: *const morula_import_options,
     shape: *mut *mut morula_shape,
 ) -> i32 {
-    guard(|| {
-        require(shape, "shape")?;
-        let (import, run, _) = unsafe { import(options)? };
+    let from = |import: &ImportOptions, run: &Run| {
         let mut primitive = Primitive::from_name(unsafe { text(name, "name")? })?;
         if let Primitive::Stone { seed: which, .. } = &mut primitive {
             *which = seed;
@@ -160,10 +159,9 @@ pub unsafe extern "C" fn morula_shape_from_primitive(
             primitive.set(key, *value)?;
         }
         let segments = if segments == 0 { 64 } else { segments as usize };
-        let made = Shape::from_primitive(&primitive, segments, &import, &run)?;
-        unsafe { give_shape(shape, made, &run) };
-        Ok(())
-    })
+        Shape::from_primitive(&primitive, segments, import, run)
+    };
+    unsafe { make(options, shape, from) }
 }
 
 #[cfg(test)]

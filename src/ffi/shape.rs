@@ -73,6 +73,20 @@ pub(super) fn reserved(name: &str, value: i32) -> Result<()> {
     Ok(())
 }
 
+/// Makes a shape `from` what the caller gave and hands it out.
+pub(super) unsafe fn make(
+    options: *const morula_import_options,
+    shape: *mut *mut morula_shape,
+    from: impl FnOnce(&ImportOptions, &Run) -> Result<Shape>,
+) -> i32 {
+    guard(|| {
+        require(shape, "shape")?;
+        let (import, run, _) = unsafe { import(options)? };
+        unsafe { give_shape(shape, from(&import, &run)?, &run) };
+        Ok(())
+    })
+}
+
 /// Hands a new shape to the caller.
 pub(super) unsafe fn give_shape(out: *mut *mut morula_shape, shape: Shape, run: &Run) {
     log_notes(&shape.report.notes);

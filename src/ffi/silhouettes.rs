@@ -1,11 +1,12 @@
 //! Shapes from silhouettes.
 
 use super::choices::{MORULA_CARVE_CENTRES, MORULA_CARVE_TOUCHED};
-use super::guard::{guard, require, slice};
-use super::shape::{give_shape, import, morula_shape};
+use super::guard::slice;
+use super::shape::{make, morula_shape};
 use super::structs::morula_import_options;
 use crate::error::{Error, Result, reserve};
-use crate::shape::{Carve, Shape, Silhouette};
+use crate::run::Run;
+use crate::shape::{Carve, ImportOptions, Shape, Silhouette};
 
 /// One mask of the caller's row of masks.
 fn part<'a>(i: usize, masks: &mut &'a [u8], width: usize, height: usize) -> Result<&'a [u8]> {
@@ -50,9 +51,7 @@ pub unsafe extern "C" fn morula_shape_from_silhouettes(
     options: *const morula_import_options,
     shape: *mut *mut morula_shape,
 ) -> i32 {
-    guard(|| {
-        require(shape, "shape")?;
-        let (import, run, _) = unsafe { import(options)? };
+    let from = |import: &ImportOptions, run: &Run| {
         let carve = match carve {
             MORULA_CARVE_TOUCHED => Carve::Touched,
             MORULA_CARVE_CENTRES => Carve::Centres,
@@ -77,8 +76,7 @@ pub unsafe extern "C" fn morula_shape_from_silhouettes(
             let mask = part(i, &mut masks, width, height)?;
             silhouettes.push(Silhouette { mask, width, height, camera: *camera });
         }
-        let made = Shape::from_silhouettes(&silhouettes, cells, carve, &import, &run)?;
-        unsafe { give_shape(shape, made, &run) };
-        Ok(())
-    })
+        Shape::from_silhouettes(&silhouettes, cells, carve, import, run)
+    };
+    unsafe { make(options, shape, from) }
 }

@@ -1,11 +1,12 @@
 //! Shapes from arrays of voxels: masks, grey volumes, labels.
 
 use super::guard::{array_or, guard, require, slice};
-use super::shape::{give_shape, import, morula_shape, put};
+use super::shape::{make, morula_shape, put};
 use super::structs::morula_import_options;
 use crate::error::{Error, Result};
+use crate::run::Run;
 use crate::shape::voxels::{Grey, LabelInfo, Threshold, list_labels};
-use crate::shape::{Layout, Shape};
+use crate::shape::{ImportOptions, Layout, Shape};
 
 /// Spacing and origin as the library wants them.
 pub(super) fn check_layout(spacing: [f64; 3], origin: [f64; 3]) -> Result<()> {
@@ -79,33 +80,35 @@ pub unsafe extern "C" fn morula_shape_from_mask(
     options: *const morula_import_options,
     shape: *mut *mut morula_shape,
 ) -> i32 {
-    guard(|| {
-        require(shape, "shape")?;
-        let (import, run, _) = unsafe { import(options)? };
+    let from = |import: &ImportOptions, run: &Run| {
         let layout = unsafe { layout(dims, spacing, origin)? };
         let mask = unsafe { cells(mask, layout.dims, "mask")? };
-        let made = Shape::from_mask(mask, &layout, &import, &run)?;
-        unsafe { give_shape(shape, made, &run) };
-        Ok(())
-    })
+        Shape::from_mask(mask, &layout, import, run)
+    };
+    unsafe { make(options, shape, from) }
 }
 
-unsafe fn grey(
-    values: Grey,
-    layout: &Layout,
+/// A shape of the grey values that `values` finds for `dims`.
+unsafe fn grey<'a>(
+    values: impl FnOnce([usize; 3]) -> Result<Grey<'a>>,
+    dims: *const usize,
+    spacing: *const f64,
+    origin: *const f64,
     threshold: *const f64,
     options: *const morula_import_options,
     shape: *mut *mut morula_shape,
-) -> Result<()> {
-    let (import, run, _) = unsafe { import(options)? };
-    let threshold = if threshold.is_null() {
-        Threshold::Otsu
-    } else {
-        above(unsafe { array_or(threshold, [0.0], "threshold")? }[0])?
+) -> i32 {
+    let from = |import: &ImportOptions, run: &Run| {
+        let layout = unsafe { layout(dims, spacing, origin)? };
+        let values = values(layout.dims)?;
+        let threshold = if threshold.is_null() {
+            Threshold::Otsu
+        } else {
+            above(unsafe { array_or(threshold, [0.0], "threshold")? }[0])?
+        };
+        Shape::from_grey(values, &layout, threshold, import, run)
     };
-    let made = Shape::from_grey(values, layout, threshold, &import, &run)?;
-    unsafe { give_shape(shape, made, &run) };
-    Ok(())
+    unsafe { make(options, shape, from) }
 }
 
 /// Makes a shape from a grey volume of 8 bits.
@@ -127,12 +130,8 @@ pub unsafe extern "C" fn morula_shape_from_grey_u8(
     options: *const morula_import_options,
     shape: *mut *mut morula_shape,
 ) -> i32 {
-    guard(|| {
-        require(shape, "shape")?;
-        let layout = unsafe { layout(dims, spacing, origin)? };
-        let values = Grey::U8(unsafe { cells(values, layout.dims, "values")? });
-        unsafe { grey(values, &layout, threshold, options, shape) }
-    })
+    let values = |dims| Ok(Grey::U8(unsafe { cells(values, dims, "values")? }));
+    unsafe { grey(values, dims, spacing, origin, threshold, options, shape) }
 }
 
 /// Makes a shape from a grey volume of 16 bits.
@@ -148,12 +147,8 @@ pub unsafe extern "C" fn morula_shape_from_grey_u16(
     options: *const morula_import_options,
     shape: *mut *mut morula_shape,
 ) -> i32 {
-    guard(|| {
-        require(shape, "shape")?;
-        let layout = unsafe { layout(dims, spacing, origin)? };
-        let values = Grey::U16(unsafe { cells(values, layout.dims, "values")? });
-        unsafe { grey(values, &layout, threshold, options, shape) }
-    })
+    let values = |dims| Ok(Grey::U16(unsafe { cells(values, dims, "values")? }));
+    unsafe { grey(values, dims, spacing, origin, threshold, options, shape) }
 }
 
 /// Makes a shape from a grey volume of single precision.
@@ -170,12 +165,8 @@ pub unsafe extern "C" fn morula_shape_from_grey_f32(
     options: *const morula_import_options,
     shape: *mut *mut morula_shape,
 ) -> i32 {
-    guard(|| {
-        require(shape, "shape")?;
-        let layout = unsafe { layout(dims, spacing, origin)? };
-        let values = Grey::F32(unsafe { cells(values, layout.dims, "values")? });
-        unsafe { grey(values, &layout, threshold, options, shape) }
-    })
+    let values = |dims| Ok(Grey::F32(unsafe { cells(values, dims, "values")? }));
+    unsafe { grey(values, dims, spacing, origin, threshold, options, shape) }
 }
 
 /// Makes a shape from one label of a label volume.
@@ -198,15 +189,12 @@ pub unsafe extern "C" fn morula_shape_from_label(
     options: *const morula_import_options,
     shape: *mut *mut morula_shape,
 ) -> i32 {
-    guard(|| {
-        require(shape, "shape")?;
-        let (import, run, _) = unsafe { import(options)? };
+    let from = |import: &ImportOptions, run: &Run| {
         let layout = unsafe { layout(dims, spacing, origin)? };
         let labels = unsafe { cells(labels, layout.dims, "labels")? };
-        let made = Shape::from_label(labels, &layout, label, &import, &run)?;
-        unsafe { give_shape(shape, made, &run) };
-        Ok(())
-    })
+        Shape::from_label(labels, &layout, label, import, run)
+    };
+    unsafe { make(options, shape, from) }
 }
 
 /// How many labels other than 0 a label volume holds.
