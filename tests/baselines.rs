@@ -2,27 +2,17 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::{particle as solid, solid_of};
 use morula::clump::Stopped;
 use morula::generate::{Effort, GenerateOptions, Method, generate};
 use morula::shape::primitive::Primitive;
 use morula::shape::{ImportOptions, Layout, Shape};
-use morula::solid::{Resolution, SolidOptions};
 use morula::{Clump, Error, Run, Solid, Sphere};
 
 const ALL: [Method; 4] =
     [Method::Euclidean, Method::FerellecMcDowell, Method::Favier, Method::UniformGrid];
-
-fn of_shape(shape: &Shape, cells: u32) -> Solid {
-    let resolution = Resolution::CellsLongest(cells);
-    let options = SolidOptions { resolution, ..SolidOptions::default() };
-    Solid::new(shape, &options, &Run::serial()).unwrap()
-}
-
-fn solid(name: &str, cells: u32) -> Solid {
-    let primitive = Primitive::from_name(name).unwrap();
-    let options = ImportOptions::default();
-    of_shape(&Shape::from_primitive(&primitive, 48, &options, &Run::serial()).unwrap(), cells)
-}
 
 /// A thick L of cells that are no cubes.
 fn voxels() -> Solid {
@@ -31,7 +21,7 @@ fn voxels() -> Solid {
         (0..24 * 20 * 9).map(|i| u8::from(i % 24 < 9 || i / 24 % 20 < 8)).collect();
     let layout = Layout { dims, spacing: [1.0, 1.0, 1.25], origin: [0.0; 3] };
     let shape = Shape::from_mask(&cells, &layout, &ImportOptions::default(), &Run::serial());
-    of_shape(&shape.unwrap(), 24)
+    solid_of(&shape.unwrap(), 24)
 }
 
 fn ask(method: Method, spheres: usize) -> GenerateOptions {
@@ -157,7 +147,7 @@ fn the_same_bytes_come_out_for_any_number_of_threads_and_any_power_of_two() {
     let body = |scale: f64| {
         let v: Vec<[f64; 3]> = vertices.iter().map(|p| p.map(|x| x * scale)).collect();
         let shape = Shape::from_mesh(&v, &faces, &ImportOptions::default(), &Run::serial());
-        of_shape(&shape.unwrap(), 32)
+        solid_of(&shape.unwrap(), 32)
     };
     let (plain, tiny) = (body(1.0), body(2f64.powi(-30)));
     for method in ALL {

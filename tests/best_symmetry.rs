@@ -2,6 +2,9 @@
 
 #![allow(clippy::panic, clippy::unwrap_used)]
 
+mod common;
+
+use common::{particle as solid, solid_of};
 use morula::clump::Stopped;
 use morula::generate::{
     BestOptions, Effort, GenerateOptions, HalfSpace, Method, Symmetry, generate,
@@ -10,20 +13,7 @@ use morula::math::{Sphere, Vec3};
 use morula::measure::{QualityOptions, quality};
 use morula::shape::primitive::Primitive;
 use morula::shape::{ImportOptions, Layout, Shape};
-use morula::solid::{Resolution, SolidOptions};
 use morula::{Clump, Error, Run, Solid};
-
-fn solid_of(shape: &Shape, cells: u32) -> Solid {
-    let resolution = Resolution::CellsLongest(cells);
-    let options = SolidOptions { resolution, ..SolidOptions::default() };
-    Solid::new(shape, &options, &Run::serial()).unwrap()
-}
-
-fn solid(name: &str, cells: u32) -> Solid {
-    let primitive = Primitive::from_name(name).unwrap();
-    let options = ImportOptions::default();
-    solid_of(&Shape::from_primitive(&primitive, 48, &options, &Run::serial()).unwrap(), cells)
-}
 
 fn planes(normals: &[[f64; 3]]) -> Symmetry {
     Symmetry::Planes(normals.iter().map(|n| Vec3::from(*n)).collect())

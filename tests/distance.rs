@@ -4,57 +4,18 @@
 
 mod common;
 
-use common::cube;
+use common::{cube, solid_of, to_triangle, winding};
 use morula::math::Vec3;
 use morula::shape::{Bodies, Body, ImportOptions, Layout, Primitive, Shape};
 use morula::solid::{Resolution, Solid, SolidOptions};
 use morula::{Result, Run};
-use std::f64::consts::PI;
 
 fn options(resolution: Resolution) -> SolidOptions {
     SolidOptions { resolution, ..SolidOptions::default() }
 }
 
-fn solid_of(shape: &Shape, cells: u32) -> Solid {
-    Solid::new(shape, &options(Resolution::CellsLongest(cells)), &Run::serial()).unwrap()
-}
-
 fn any_body() -> ImportOptions {
     ImportOptions { bodies: Bodies::All, ..ImportOptions::default() }
-}
-
-/// Distance to a triangle by its own Voronoi regions (Ericson 2005), apart from the library's.
-fn to_triangle([a, b, c]: [Vec3; 3], p: &Vec3) -> f64 {
-    let segment = |a: Vec3, b: Vec3| {
-        let l = (b - a).norm_squared();
-        let t = if l > 0.0 { ((p - a).dot(&(b - a)) / l).clamp(0.0, 1.0) } else { 0.0 };
-        (a + (b - a) * t - p).norm()
-    };
-    let mut d = segment(a, b).min(segment(b, c)).min(segment(c, a));
-    let n = (b - a).cross(&(c - a));
-    if n.norm() > 0.0 {
-        // Barycentric coordinates of the projection.
-        let q = p - n * (n.dot(&(p - a)) / n.norm_squared());
-        let inside = |u: Vec3, v: Vec3| (v - u).cross(&(q - u)).dot(&n) >= 0.0;
-        if inside(a, b) && inside(b, c) && inside(c, a) {
-            d = d.min((p - q).norm());
-        }
-    }
-    d
-}
-
-/// Winding number of a point by solid angles, apart from the library's.
-fn winding(faces: &[[Vec3; 3]], p: &Vec3) -> f64 {
-    faces
-        .iter()
-        .map(|t| {
-            let [a, b, c] = t.map(|v| v - p);
-            let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
-            let y = a.dot(&b.cross(&c));
-            let x = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
-            y.atan2(x) / (2.0 * PI)
-        })
-        .sum()
 }
 
 /// Greatest error in cells over the whole field, and the number of wrong signs of cell
@@ -70,7 +31,7 @@ fn errors(solid: &Solid, step: usize) -> (f64, usize) {
     for at in (0..grid.len()).step_by(step) {
         let [nx, ny, _] = grid.dims;
         let p = grid.center(at % nx, at / nx % ny, at / nx / ny);
-        let exact = faces.iter().map(|t| to_triangle(*t, &p)).fold(f64::MAX, f64::min);
+        let exact = faces.iter().map(|t| to_triangle(&p, t)).fold(f64::MAX, f64::min);
         let d = f64::from(field[at]);
         worst = worst.max((exact - d.abs()).abs() / h);
         if exact > 1e-6 * h && (d < 0.0) != (winding(&faces, &p) > 0.5) {

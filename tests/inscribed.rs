@@ -2,15 +2,14 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::{Arrays, beyond, solid_of_mesh as solid};
 use morula::clump::Stopped;
 use morula::generate::{Effort, GenerateOptions, Method, generate};
-use morula::math::{Sphere, Vec3};
 use morula::measure::QualityOptions;
-use morula::shape::{ImportOptions, Primitive};
-use morula::solid::{Resolution, SolidOptions};
-use morula::{Clump, Error, Run, Shape, Solid};
-
-type Arrays = (Vec<[f64; 3]>, Vec<[u32; 3]>);
+use morula::shape::Primitive;
+use morula::{Clump, Error, Run};
 
 fn asked(spheres: usize, effort: Effort) -> GenerateOptions {
     let quality = QualityOptions { surface: false, columns: 256, ..QualityOptions::default() };
@@ -25,37 +24,6 @@ fn asked(spheres: usize, effort: Effort) -> GenerateOptions {
 
 fn arrays(name: &str, segments: usize) -> Arrays {
     Primitive::from_name(name).unwrap().mesh(segments).unwrap()
-}
-
-fn solid((vertices, faces): &Arrays, cells: u32) -> Solid {
-    let run = Run::serial();
-    let shape = Shape::from_mesh(vertices, faces, &ImportOptions::default(), &run).unwrap();
-    let options =
-        SolidOptions { resolution: Resolution::CellsLongest(cells), ..SolidOptions::default() };
-    Solid::new(&shape, &options, &run).unwrap()
-}
-
-/// Distance from a point to a triangle by trying its plane, its edges and its corners.
-fn to_triangle(p: &Vec3, t: &[Vec3; 3]) -> f64 {
-    let mut best = f64::MAX;
-    for k in 0..3 {
-        let (a, b) = (t[k], t[(k + 1) % 3]);
-        let s = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
-        best = best.min((p - (a + (b - a) * s)).norm());
-    }
-    let n = (t[1] - t[0]).cross(&(t[2] - t[0])).normalize();
-    let foot = p - n * n.dot(&(p - t[0]));
-    let inside = (0..3).all(|k| n.dot(&(t[(k + 1) % 3] - t[k]).cross(&(foot - t[k]))) >= 0.0);
-    if inside { best.min((p - foot).norm()) } else { best }
-}
-
-/// Greatest reach of a sphere beyond the triangles, of the size of 1.
-fn beyond((vertices, faces): &Arrays, spheres: &[Sphere]) -> f64 {
-    let corner = |f: &[u32; 3]| f.map(|v| Vec3::from(vertices[v as usize]));
-    let depth = |s: &Sphere| {
-        faces.iter().map(|f| to_triangle(&s.center, &corner(f))).fold(f64::MAX, f64::min)
-    };
-    spheres.iter().map(|s| s.radius - depth(s)).fold(f64::MIN, f64::max)
 }
 
 fn make(arrays: &Arrays, cells: u32, n: usize, effort: Effort) -> Clump {

@@ -2,20 +2,14 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::{Arrays as Triangles, solid_of_mesh as solid, to_mesh};
 use morula::generate::{GenerateOptions, Method, generate};
 use morula::math::Vec3;
 use morula::shape::{ImportOptions, Primitive};
-use morula::solid::{Resolution, SolidOptions};
+use morula::solid::SolidOptions;
 use morula::{Clump, Run, Shape, Solid, Sphere};
-
-type Triangles = (Vec<[f64; 3]>, Vec<[u32; 3]>);
-
-fn solid(mesh: &Triangles, cells: u32) -> Solid {
-    let run = Run::serial();
-    let shape = Shape::from_mesh(&mesh.0, &mesh.1, &ImportOptions::default(), &run).unwrap();
-    let resolution = Resolution::CellsLongest(cells);
-    Solid::new(&shape, &SolidOptions { resolution, ..SolidOptions::default() }, &run).unwrap()
-}
 
 fn make(solid: &Solid, spheres: usize, confine: bool, radius_offset: f64) -> Clump {
     let options = GenerateOptions {
@@ -26,25 +20,6 @@ fn make(solid: &Solid, spheres: usize, confine: bool, radius_offset: f64) -> Clu
         ..GenerateOptions::default()
     };
     generate(solid, &options, &Run::serial()).unwrap()
-}
-
-/// Distance from a point to a triangle, by the regions of its plane.
-fn to_triangle(p: &Vec3, t: [Vec3; 3]) -> f64 {
-    let edge = |a: Vec3, b: Vec3| {
-        let s = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
-        (p - a - (b - a) * s).norm()
-    };
-    let [a, b, c] = t;
-    let n = (b - a).cross(&(c - a));
-    let q = p - n * ((p - a).dot(&n) / n.norm_squared());
-    let within =
-        [(a, b), (b, c), (c, a)].iter().all(|(u, v)| (v - u).cross(&(q - u)).dot(&n) >= 0.0);
-    if within { (p - q).norm() } else { edge(a, b).min(edge(b, c)).min(edge(c, a)) }
-}
-
-fn depth(mesh: &Triangles, p: &Vec3) -> f64 {
-    let corner = |i: u32| Vec3::from(mesh.0[i as usize]);
-    mesh.1.iter().map(|f| to_triangle(p, f.map(corner))).fold(f64::INFINITY, f64::min)
 }
 
 #[test]
@@ -122,7 +97,7 @@ fn a_slot_finer_than_the_cells_still_bounds_the_radii() {
     assert_eq!(clump.spheres.len(), 30);
     let surface = solid.surface(&Run::serial()).unwrap();
     for s in &clump.spheres {
-        let d = depth(&mesh, &s.center);
+        let d = to_mesh(&s.center, &mesh);
         assert!((s.radius - d).abs() < 1e-9, "{s:?} is {d} deep");
         assert!(surface.contains(&solid.frame().to_unit(&s.center)), "{s:?}");
     }
@@ -153,7 +128,7 @@ fn confined_spheres_stay_within_the_triangles() {
             let clump = make(&solid, 40, true, offset);
             assert!(clump.spheres.len() == 40 || !clump.note.is_empty());
             for s in &clump.spheres {
-                let d = depth(&mesh, &s.center);
+                let d = to_mesh(&s.center, &mesh);
                 assert!(s.radius <= d + 1e-12, "{}: {} and {d}", p.name(), s.radius);
                 let unit = solid.frame().to_unit(&s.center);
                 assert!(solid.surface(&Run::serial()).unwrap().contains(&unit));

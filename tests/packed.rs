@@ -3,16 +3,17 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod common;
+
+use common::{Arrays, solid_of_mesh as solid, to_mesh};
 use morula::clump::Stopped;
 use morula::generate::{Effort, GenerateOptions, Method, generate};
 use morula::math::{Sphere, Vec3};
 use morula::measure::QualityOptions;
 use morula::shape::voxels::Layout;
 use morula::shape::{ImportOptions, Primitive};
-use morula::solid::{Resolution, SolidOptions};
+use morula::solid::SolidOptions;
 use morula::{Clump, Error, Run, Shape, Solid};
-
-type Arrays = (Vec<[f64; 3]>, Vec<[u32; 3]>);
 
 fn asked(spheres: usize, min_radius: f64) -> GenerateOptions {
     GenerateOptions { method: Method::Packed, spheres, min_radius, ..GenerateOptions::default() }
@@ -28,14 +29,6 @@ fn arrays(name: &str, segments: usize) -> Arrays {
     body.mesh(segments).unwrap()
 }
 
-fn solid((vertices, faces): &Arrays, cells: u32) -> Solid {
-    let run = Run::serial();
-    let shape = Shape::from_mesh(vertices, faces, &ImportOptions::default(), &run).unwrap();
-    let options =
-        SolidOptions { resolution: Resolution::CellsLongest(cells), ..SolidOptions::default() };
-    Solid::new(&shape, &options, &run).unwrap()
-}
-
 fn make(name: &str, n: usize, min_radius: f64) -> Clump {
     let solid = solid(&arrays(name, 32), 32);
     generate(&solid, &asked(n, min_radius), &Run::serial()).unwrap()
@@ -48,30 +41,14 @@ fn sizes(spheres: &[Sphere]) -> (f64, f64) {
     (least, most / least)
 }
 
-/// Distance from a point to a triangle by trying its plane, its edges and its corners.
-fn to_triangle(p: &Vec3, t: &[Vec3; 3]) -> f64 {
-    let mut best = f64::MAX;
-    for k in 0..3 {
-        let (a, b) = (t[k], t[(k + 1) % 3]);
-        let s = ((p - a).dot(&(b - a)) / (b - a).norm_squared()).clamp(0.0, 1.0);
-        best = best.min((p - (a + (b - a) * s)).norm());
-    }
-    let n = (t[1] - t[0]).cross(&(t[2] - t[0])).normalize();
-    let foot = p - n * n.dot(&(p - t[0]));
-    let inside = (0..3).all(|k| n.dot(&(t[(k + 1) % 3] - t[k]).cross(&(foot - t[k]))) >= 0.0);
-    if inside { best.min((p - foot).norm()) } else { best }
-}
-
 /// No two overlap, none reaches beyond a triangle, radii are within 5 % of each other.
-fn hold((vertices, faces): &Arrays, spheres: &[Sphere], size: f64, what: &str) {
+fn hold(mesh: &Arrays, spheres: &[Sphere], size: f64, what: &str) {
     for (i, a) in spheres.iter().enumerate() {
         for b in &spheres[..i] {
             let gap = (a.center - b.center).norm() - a.radius - b.radius;
             assert!(gap >= 0.0, "{what}: two spheres overlap by {:e}", -gap);
         }
-        let corners = |f: &[u32; 3]| f.map(|v| Vec3::from(vertices[v as usize]));
-        let depth =
-            faces.iter().map(|f| to_triangle(&a.center, &corners(f))).fold(f64::MAX, f64::min);
+        let depth = to_mesh(&a.center, mesh);
         assert!(a.radius <= depth + 1e-14 * size, "{what}: {:e} beyond", a.radius - depth);
     }
     let (_, spread) = sizes(spheres);

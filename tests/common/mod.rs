@@ -4,6 +4,11 @@
 
 pub mod c_header;
 
+use morula::math::{Sphere, Vec3};
+use morula::shape::primitive::Primitive;
+use morula::shape::{ImportOptions, Shape};
+use morula::solid::{Resolution, SolidOptions};
+use morula::{Run, Solid};
 use std::f64::consts::PI;
 use std::path::PathBuf;
 
@@ -86,6 +91,76 @@ pub fn join(parts: &[Arrays]) -> Arrays {
     let mut all = (Vec::new(), Vec::new());
     parts.iter().for_each(|part| add(&mut all, part));
     all
+}
+
+/// Distance from a point to a triangle by its plane, its edges and its corners, apart from the
+/// library's.
+pub fn to_triangle(p: &Vec3, [a, b, c]: &[Vec3; 3]) -> f64 {
+    let edge = |a: &Vec3, b: &Vec3| {
+        let l = (b - a).norm_squared();
+        let t = if l > 0.0 { ((p - a).dot(&(b - a)) / l).clamp(0.0, 1.0) } else { 0.0 };
+        (a + (b - a) * t - p).norm()
+    };
+    let edges = edge(a, b).min(edge(b, c)).min(edge(c, a));
+    let n = (b - a).cross(&(c - a));
+    if n.norm() == 0.0 {
+        return edges;
+    }
+    let q = p - n * (n.dot(&(p - a)) / n.norm_squared());
+    let inside = |u: &Vec3, v: &Vec3| (v - u).cross(&(q - u)).dot(&n) >= 0.0;
+    let within = inside(a, b) && inside(b, c) && inside(c, a);
+    if within { edges.min((p - q).norm()) } else { edges }
+}
+
+/// Distance from a point to the nearest of all triangles.
+pub fn to_mesh(p: &Vec3, (vertices, faces): &Arrays) -> f64 {
+    let corners = |f: &[u32; 3]| f.map(|v| Vec3::from(vertices[v as usize]));
+    faces.iter().map(|f| to_triangle(p, &corners(f))).fold(f64::MAX, f64::min)
+}
+
+/// Winding number of a point by solid angles, apart from the library's.
+pub fn winding(faces: &[[Vec3; 3]], p: &Vec3) -> f64 {
+    faces
+        .iter()
+        .map(|t| {
+            let [a, b, c] = t.map(|v| v - p);
+            let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
+            let y = a.dot(&b.cross(&c));
+            let x = la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb;
+            y.atan2(x) / (2.0 * PI)
+        })
+        .sum()
+}
+
+/// Greatest reach of a sphere beyond the surface: below 0 where all lie within it.
+pub fn beyond(mesh: &Arrays, spheres: &[Sphere]) -> f64 {
+    let corners = |f: &[u32; 3]| f.map(|v| Vec3::from(mesh.0[v as usize]));
+    let faces: Vec<[Vec3; 3]> = mesh.1.iter().map(corners).collect();
+    let reach = spheres.iter().map(|s| {
+        let distance = to_mesh(&s.center, mesh);
+        s.radius + if winding(&faces, &s.center) > 0.5 { -distance } else { distance }
+    });
+    reach.fold(f64::MIN, f64::max)
+}
+
+/// A solid of so many cells along the longest edge.
+pub fn solid_of(shape: &Shape, cells: u32) -> Solid {
+    let resolution = Resolution::CellsLongest(cells);
+    let options = SolidOptions { resolution, ..SolidOptions::default() };
+    Solid::new(shape, &options, &Run::serial()).unwrap()
+}
+
+/// The same of a mesh.
+pub fn solid_of_mesh((vertices, faces): &Arrays, cells: u32) -> Solid {
+    let options = ImportOptions::default();
+    solid_of(&Shape::from_mesh(vertices, faces, &options, &Run::serial()).unwrap(), cells)
+}
+
+/// The same of a built-in particle.
+pub fn particle(name: &str, cells: u32) -> Solid {
+    let primitive = Primitive::from_name(name).unwrap();
+    let options = ImportOptions::default();
+    solid_of(&Shape::from_primitive(&primitive, 48, &options, &Run::serial()).unwrap(), cells)
 }
 
 /// The folder of third-party data, where there is one; says when there is none.
