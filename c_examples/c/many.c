@@ -54,6 +54,9 @@ int main(void) {
   STATUS(morula_clumps_from_solid(solid, &options, bad, 2, levels),
          MORULA_STATUS_INVALID_ARGUMENT);
   CHECK(levels[0] == NULL && strncmp(morula_last_error_message(), "level 1: ", 9) == 0);
+  /* More than memory can hold: refused before any is read. */
+  STATUS(morula_clumps_from_solid(solid, &options, counts, SIZE_MAX, levels),
+         MORULA_STATUS_TOO_LARGE);
   STATUS(morula_clumps_from_solid(solid, &options, NULL, 2, levels), MORULA_STATUS_NULL_POINTER);
   STATUS(morula_clumps_from_solid(solid, &options, bad, 2, NULL), MORULA_STATUS_NULL_POINTER);
   STATUS(morula_clumps_from_solid(NULL, &options, bad, 2, levels), MORULA_STATUS_NULL_POINTER);
@@ -78,6 +81,8 @@ int main(void) {
   STATUS(morula_clumps_from_shapes(many, 12, NULL, &options, serial, statuses),
          MORULA_STATUS_NULL_POINTER);
   CHECK(strstr(morula_last_error_message(), "shape 5") != NULL);
+  STATUS(morula_clumps_from_shapes(many, SIZE_MAX, NULL, &options, serial, NULL),
+         MORULA_STATUS_TOO_LARGE);
 
   /* Labels: 3 is not there, the others are made all the same. */
   uint32_t labels[7 * 3 * 3];
@@ -98,6 +103,9 @@ int main(void) {
     NEAR(m.volume, volumes[i], 1e-12);
   }
   free_all(parts, 3);
+  STATUS(morula_clumps_from_labels(labels, dims, NULL, NULL, wanted, SIZE_MAX, NULL, NULL,
+                                   &options, parts, NULL),
+         MORULA_STATUS_TOO_LARGE);
   for (int i = 0; i < 4; i++) morula_shape_free(shapes[i]);
   return checks_done();
 }
