@@ -203,7 +203,7 @@ fn many(asked: &[String]) {
 }
 
 const PEER: &str = "
-import contextlib, io, resource, sys
+import contextlib, io, resource, sys, time
 import numpy as np
 def cpu():
     u = resource.getrusage(resource.RUSAGE_SELF)
@@ -211,17 +211,17 @@ def cpu():
 import multisphere as mss
 with contextlib.redirect_stdout(io.StringIO()):
     mesh = mss.load_mesh(sys.argv[1])
-    start = cpu()
+    start, clock = cpu(), time.perf_counter()
     made = mss.multisphere_from_mesh(mesh, div=100, padding=2, min_center_distance_vox=4,
                                      max_spheres=int(sys.argv[2]))
-    seconds = cpu() - start
-print(seconds)
+    seconds, clock = cpu() - start, time.perf_counter() - clock
+print(seconds, clock)
 for c, r in zip(np.asarray(made.centers), np.ravel(made.radii)):
     print(*c, r)
 ";
 
-/// CPU seconds of the peer from the mesh to the clump, and its spheres.
-fn peer_of(a: &Arrays, n: usize) -> Option<(f64, Vec<Sphere>)> {
+/// Seconds of the peer from the mesh to the clump, of CPU and of the clock, and its spheres.
+fn peer_of(a: &Arrays, n: usize) -> Option<([f64; 2], Vec<Sphere>)> {
     let python = std::env::var("MORULA_PEER_PYTHON").ok()?;
     let path = std::env::temp_dir().join(format!("morula-{}-{}.obj", a.name, std::process::id()));
     let mut text = String::new();
@@ -237,7 +237,8 @@ fn peer_of(a: &Arrays, n: usize) -> Option<(f64, Vec<Sphere>)> {
     std::fs::remove_file(&path).unwrap();
     let text = String::from_utf8(out.stdout).ok()?;
     let mut lines = text.lines();
-    let seconds = lines.next()?.parse().ok()?;
+    let (cpu, clock) = lines.next()?.split_once(' ')?;
+    let seconds = [cpu.parse().ok()?, clock.parse().ok()?];
     let sphere = |line: &str| {
         let v: Vec<f64> = line.split(' ').filter_map(|x| x.parse().ok()).collect();
         Sphere::new(morula::math::Vec3::new(v[0], v[1], v[2]), v[3])
@@ -247,10 +248,10 @@ fn peer_of(a: &Arrays, n: usize) -> Option<(f64, Vec<Sphere>)> {
 
 fn peer(asked: &[String]) {
     println!(
-        "| shape | n | effort | D | CPU s | `multisphere` spheres | its D | its CPU s | times as \
-         long | D over its D |"
+        "| shape | n | effort | D | CPU s, one thread | wall s, two | `multisphere` spheres | its D | \
+         its CPU s | its wall s | times as long, CPU | wall | D over its D |"
     );
-    println!("| --- | ---: | --- |{}", " ---: |".repeat(7));
+    println!("| --- | ---: | --- |{}", " ---: |".repeat(10));
     for a in shapes(asked) {
         for n in [30, 100] {
             let Some((seconds, theirs)) = peer_of(&a, n) else { continue };
@@ -259,19 +260,25 @@ fn peer(asked: &[String]) {
                 let (run, runs, start) = (Run::serial(), 5, cpu());
                 (0..runs).for_each(|_| drop(make(&a, n, effort, &Run::serial())));
                 let ours = (cpu() - start) / f64::from(runs);
+                let clock = Instant::now();
+                (0..runs).for_each(|_| drop(make(&a, n, effort, &Run::new(2).unwrap())));
+                let wall = clock.elapsed().as_secs_f64() / f64::from(runs);
                 let (solid, spheres) = make(&a, n, effort, &run);
                 let options =
                     QualityOptions { surface: false, columns: 512, ..QualityOptions::default() };
                 let d = [&spheres, &theirs]
                     .map(|s| quality(&solid, s, &options, &run).unwrap().mismatch);
                 println!(
-                    "| {} | {n} | {effort:?} | {:.4} | {ours:.3} | {} | {:.4} | {seconds:.2} | \
-                     {:.0} | {:.2} |",
+                    "| {} | {n} | {effort:?} | {:.4} | {ours:.3} | {wall:.3} | {} | {:.4} | \
+                     {:.2} | {:.2} | {:.0} | {:.0} | {:.2} |",
                     a.name,
                     d[0],
                     theirs.len(),
                     d[1],
-                    seconds / ours,
+                    seconds[0],
+                    seconds[1],
+                    seconds[0] / ours,
+                    seconds[1] / wall,
                     d[0] / d[1]
                 );
             }
