@@ -55,9 +55,9 @@ impl Program {
             verbose: false,
             max_threads: 1,
             direct_solve_method: "qdldl".into(),
-            tol_gap_abs: 1e-11,
-            tol_gap_rel: 1e-11,
-            tol_feas: 1e-11,
+            tol_gap_abs: 1e-10,
+            tol_gap_rel: 1e-10,
+            tol_feas: 1e-10,
             ..DefaultSettings::default()
         };
         let mut solver = DefaultSolver::new(&p, &self.linear, &a, &right, &cones, settings)

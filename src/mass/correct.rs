@@ -15,6 +15,8 @@ use nalgebra::Matrix3;
 
 /// Equations met to this are met.
 const EXACT: f64 = 1e-10;
+/// What is left of equations that are met to rounding.
+const ROUNDING: f64 = 1e-13;
 /// Least inertia errors below this may be zero but for the solver's own.
 const NEARLY: f64 = 1e-7;
 
@@ -101,7 +103,7 @@ pub struct Masses {
     pub status: MassStatus,
     /// What is left of them.
     pub residuals: Residuals,
-    /// Spheres whose mass is m_min or m_max, ascending.
+    /// Spheres whose mass is m_min or m_max, to a ten-thousandth of the mean mass; ascending.
     pub binding: Vec<u32>,
     /// The least mass that was demanded.
     pub m_min: f64,
@@ -177,7 +179,7 @@ pub fn correct(
         run.check(0.9, "solving for the masses")?;
         largest_least(&problem)?.map(|t| t * mean).filter(|m| *m > 0.0)
     };
-    let touch = 1e-6 * mean;
+    let touch = 1e-4 * mean;
     let bound = |m: f64| m - m_min <= touch || m_max.is_some_and(|most| most - m <= touch);
     let binding = (0..n as u32).filter(|&i| bound(masses[i as usize])).collect();
     let spread: f64 = x.iter().zip(&wish).map(|(x, s)| (x - s) * (x - s) / s).sum();
@@ -235,7 +237,7 @@ fn relative(shares: Vec<f64>, p: &Problem) -> Vec<f64> {
 /// Masses that meet all ten equations to rounding; `None` where none were found.
 fn exact(p: &Problem, goal: Goal) -> Result<Option<Vec<f64>>> {
     if let Goal::Even(s) = goal {
-        return Ok(project(p, ROWS, s, s, EXACT));
+        return Ok(project(p, ROWS, s, s, EXACT).map(|x| settle(p, x)));
     }
     let Some(x) = best(p, goal, ALL, 0.0)? else { return Ok(None) };
     Ok(polish(p, goal, ROWS, &x))
@@ -250,11 +252,22 @@ fn polish(p: &Problem, goal: Goal, rows: usize, x: &[f64]) -> Option<Vec<f64>> {
         for less in [1e-9, 1e-7, 1e-5] {
             let p = Problem { least: p.least.max(least - less), ..p.clone() };
             if let Some(x) = project(&p, rows, x, &weights, EXACT) {
-                return Some(x);
+                return Some(settle(&p, x));
             }
         }
     }
-    project(p, rows, x, &weights, EXACT)
+    project(p, rows, x, &weights, EXACT).map(|x| settle(p, x))
+}
+
+/// Equations that contradict each other by rounding are all missed a little: then mass and centre
+/// are met, or the mass, and the others take what is left.
+fn settle(p: &Problem, x: Vec<f64>) -> Vec<f64> {
+    if greatest(&p.residuals(&x)[..INERTIA]) <= ROUNDING {
+        return x;
+    }
+    let weights = vec![1.0; p.n];
+    let better = |rows| project(p, rows, &x, &weights, ROUNDING);
+    better(INERTIA).or_else(|| better(1)).unwrap_or(x)
 }
 
 /// Masses with the least error: of the inertia, or, where the centre of mass cannot be met and

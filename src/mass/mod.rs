@@ -10,8 +10,14 @@ mod problem;
 mod project;
 mod relax;
 mod share;
+mod single;
+mod timestep;
+mod transform;
 mod union;
 
 pub use body::{Body, Target, coverage_rule, inertia_error};
 pub use correct::{Infeasible, MassOptions, MassStatus, Masses, Objective, Residuals, correct};
+pub use single::single_precision;
+pub use timestep::{Contact, ContactOptions, TimeStep, time_step};
+pub use transform::{Placement, random_orientations};
 pub use union::union_moments;

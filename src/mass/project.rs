@@ -31,7 +31,7 @@ pub(super) fn project(
             *size = 1.0 / sum.sqrt();
         }
     }
-    let dual = Dual { p, rows, near, weights, size };
+    let dual = Dual { p, rows, near, weights, size, start: p.residuals(near) };
     let mut multipliers = Vector::zeros();
     let mut now = dual.at(&multipliers);
     for _ in 0..STEPS {
@@ -72,6 +72,8 @@ struct Dual<'a> {
     weights: &'a [f64],
     /// What each equation is multiplied by.
     size: [f64; ROWS],
+    /// The equations at `near`.
+    start: [f64; ROWS],
 }
 
 struct Place {
@@ -110,11 +112,10 @@ impl Dual<'_> {
             place.x.push(x);
         }
         let all = self.p.residuals(&place.x);
-        let start = self.p.residuals(self.near);
         for r in 0..self.rows {
             place.missed[r] = all[r];
             place.gradient[r] = all[r] * self.size[r];
-            place.value += start[r] * self.size[r] * multipliers[r];
+            place.value += self.start[r] * self.size[r] * multipliers[r];
         }
         place
     }
