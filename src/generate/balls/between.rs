@@ -9,6 +9,7 @@ use super::chords::Row;
 use super::cover::Region;
 use super::dexels::{Dexels, Seen};
 use super::field::Field;
+use super::tiles::for_tiles;
 use crate::error::{Error, Result, filled, fits};
 
 /// Most places in a column where the distance is read.
@@ -101,10 +102,8 @@ impl Between {
         fresh: &mut Fresh,
     ) -> f64 {
         let Fresh { row, order, columns } = fresh;
-        order.clear();
-        order.extend((0u32..).zip(balls).filter(|(_, s)| region.may_meet(s)).map(|(i, _)| i));
-        let low = |i: u32| balls[i as usize].t - balls[i as usize].r;
-        order.sort_unstable_by(|&i, &j| low(i).total_cmp(&low(j)).then(i.cmp(&j)));
+        let met = |(i, s): (u32, &Seen)| region.may_meet(s).then_some(i);
+        by_lower_ends((0u32..).zip(balls).filter_map(met), balls, order);
         columns.clear();
         let mut sum = 0.0;
         for (b, [from, to]) in region.runs() {
@@ -131,16 +130,22 @@ impl Between {
         self.clump += change;
     }
 
-    /// All columns anew; `region` has all.
-    pub(crate) fn whole(
-        &mut self,
-        dexels: &Dexels,
-        region: &Region,
-        balls: &[Seen],
-        fresh: &mut Fresh,
-    ) {
-        self.change(dexels, region, balls, fresh);
-        self.take(dexels, region, 0.0, fresh);
+    /// All columns anew.
+    pub(crate) fn whole(&mut self, dexels: &Dexels, balls: &[Seen], fresh: &mut Fresh) {
+        let Fresh { row, order, columns } = fresh;
+        by_lower_ends(0..balls.len() as u32, balls, order);
+        columns.clear();
+        columns.resize(self.columns.len(), 0.0);
+        for_tiles(dexels.dims, balls, order, 1, &mut |tile| {
+            for b in tile.b {
+                row.join_part(b, 0, [tile.a.start, tile.a.end], balls, tile.balls);
+                for (k, a) in tile.a.clone().enumerate() {
+                    let c = a + dexels.dims[0] * b;
+                    columns[c] = self.integral(c, row.joined(k));
+                }
+            }
+        });
+        self.columns.copy_from_slice(columns);
         self.clump = self.columns.iter().map(|&x| f64::from(x)).sum();
     }
 
@@ -148,6 +153,14 @@ impl Between {
     pub(crate) fn sum(&self, change: f64) -> f64 {
         (self.clump - self.target + change).max(0.0)
     }
+}
+
+/// Some of the balls by their lower ends.
+fn by_lower_ends(some: impl Iterator<Item = u32>, balls: &[Seen], order: &mut Vec<u32>) {
+    order.clear();
+    order.extend(some);
+    let low = |i: u32| balls[i as usize].t - balls[i as usize].r;
+    order.sort_unstable_by(|&i, &j| low(i).total_cmp(&low(j)).then(i.cmp(&j)));
 }
 
 #[cfg(test)]
@@ -180,7 +193,7 @@ mod tests {
             let mut balls = clump(20, 3, &body);
             let mut seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
             look.region.all(&dexels);
-            between.whole(&dexels, &look.region, &seen, &mut fresh);
+            between.whole(&dexels, &seen, &mut fresh);
             // |f| over what only one of both holds, by points of a grid.
             let by_points = |balls: &[Ball]| {
                 let (n, mut sum) = (90, 0.0);
@@ -207,7 +220,7 @@ mod tests {
             }
             let (added, slow) = (between.sum(0.0), by_points(&balls));
             look.region.all(&dexels);
-            between.whole(&dexels, &look.region, &seen, &mut fresh);
+            between.whole(&dexels, &seen, &mut fresh);
             assert!((added / between.sum(0.0) - 1.0).abs() < 1e-3, "{added}");
             assert!((added * dexels.cell() / slow - 1.0).abs() < 0.01, "{added} {slow}");
         }

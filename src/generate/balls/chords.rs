@@ -30,20 +30,32 @@ impl Row {
 
     /// The union of the balls in columns `from..to` of row `b`.
     pub(crate) fn join(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
+        self.join_part(b, run[0], run, balls, order);
+    }
+
+    /// The same, to the last bit as in a run that begins at `start`.
+    pub(crate) fn join_part(
+        &mut self,
+        b: usize,
+        start: usize,
+        run: [usize; 2],
+        balls: &[Seen],
+        order: &[u32],
+    ) {
         self.begin(b, run, balls, order);
         let Row { counts, joined, most, touching, .. } = self;
         if joined.len() < *most * counts.len() {
             joined.resize(*most * counts.len(), [0.0; 2]);
         }
         for &i in touching.iter() {
-            chords(b, run, &balls[i as usize], |k, lo, hi| {
+            chords(b, start, run, &balls[i as usize], |k, lo, hi| {
                 let first = k * *most;
                 counts[k] = add(&mut joined[first..first + *most], counts[k] as usize, lo, hi);
             });
         }
     }
 
-    /// As [`Row::cut`], for many balls.
+    /// As [`Row::cut`], for many balls; to the last bit as in a run that begins at 0.
     pub(crate) fn cut_many(&mut self, b: usize, run: [usize; 2], balls: &[Seen], order: &[u32]) {
         self.begin(b, run, balls, order);
         let Row { counts, single, most, touching, .. } = self;
@@ -51,7 +63,7 @@ impl Row {
             single.resize(*most * counts.len(), (0.0, 0.0, 0));
         }
         for &i in touching.iter() {
-            chords(b, run, &balls[i as usize], |k, lo, hi| {
+            chords(b, 0, run, &balls[i as usize], |k, lo, hi| {
                 single[k * *most + counts[k] as usize] = (lo, hi, i);
                 counts[k] += 1;
             });
@@ -69,7 +81,7 @@ impl Row {
             single.resize(*most * counts.len(), (0.0, 0.0, 0));
         }
         for &i in touching.iter() {
-            chords(b, run, &balls[i as usize], |k, lo, hi| {
+            chords(b, run[0], run, &balls[i as usize], |k, lo, hi| {
                 let mut at = counts[k] as usize;
                 let column = &mut single[k * *most..k * *most + at + 1];
                 counts[k] += 1;
@@ -95,20 +107,28 @@ impl Row {
     }
 }
 
-/// Calls `f(column less from, lower end, upper end)` for the chords of a ball in a row.
+/// Calls `f(column less from, lower end, upper end)` for the chords of a ball in a row, as in a run
+/// that begins at `start`: columns are worked on by eights from there or from the ball's first on.
 #[inline(always)]
-fn chords(b: usize, [from, to]: [usize; 2], s: &Seen, mut f: impl FnMut(usize, f32, f32)) {
+fn chords(
+    b: usize,
+    start: usize,
+    [from, to]: [usize; 2],
+    s: &Seen,
+    mut f: impl FnMut(usize, f32, f32),
+) {
     let y = b as f32 - s.v;
     let q = s.r * s.r - y * y;
     let half = q.max(0.0).sqrt();
     let a1 = whole(s.u + half, to);
-    let mut a = whole(s.u - half, to).max(from);
+    let mut a = whole(s.u - half, to).max(start);
+    a += from.saturating_sub(a) / 8 * 8;
     let steps = f32x8::new([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
     while a < a1 {
         let x = steps + (a as f32 - s.u);
         let h = (f32x8::splat(q) - x * x).fast_max(f32x8::splat(0.0)).sqrt().to_array();
-        for (k, h) in (a - from..a1 - from).zip(h) {
-            f(k, s.t - h, s.t + h);
+        for (at, h) in (a..a1).zip(h).skip(from.saturating_sub(a)) {
+            f(at - from, s.t - h, s.t + h);
         }
         a += 8;
     }

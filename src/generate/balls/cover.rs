@@ -5,6 +5,7 @@ use super::chords::{Row, lengths, single, whole};
 use super::dexels::{Dexels, Seen};
 use super::piles::{Exchange, Piles};
 use super::smooth::Buffers;
+use super::tiles::for_tiles;
 use crate::error::{Result, filled};
 
 /// Lengths of columns in units of the lattice.
@@ -198,9 +199,8 @@ impl Cover {
 
     /// All columns anew.
     pub(crate) fn whole(&mut self, dexels: &Dexels, balls: &[Seen], look: &mut Look) -> Lengths {
-        look.region.all(dexels);
         self.columns.fill([0.0; 2]);
-        let lengths = look.change(self, dexels, balls);
+        let lengths = look.change_all(self, dexels, balls);
         self.take(dexels, look);
         lengths
     }
@@ -224,19 +224,20 @@ impl Look {
         seen: &[Seen],
     ) -> Lengths {
         self.exchange.set(of, seen);
-        piles.change(dexels, &self.region, &mut self.exchange, &cover.columns)
+        piles.change(dexels, &self.region, &mut self.exchange, seen, &cover.columns)
     }
 
-    /// Takes over what the last [`Look::exchange`] found.
+    /// Takes over what the last [`Look::exchange`] found for these balls.
     pub(crate) fn take(
         &mut self,
         cover: &mut Cover,
         piles: &mut Piles,
         dexels: &Dexels,
+        seen: &[Seen],
         alone: &mut [Lengths],
     ) {
         cover.take_exchange(dexels, self);
-        piles.take(dexels, &self.region, &mut self.exchange, alone);
+        piles.take(dexels, &self.region, &mut self.exchange, seen, alone);
     }
 
     /// All balls by their lower ends.
@@ -261,6 +262,37 @@ impl Look {
                 part[0] += new[0] - old[0];
                 part[1] += new[1] - old[1];
                 fresh.push(new);
+            }
+            sum.union += f64::from(part[0]);
+            sum.both += f64::from(part[1]);
+        }
+        sum
+    }
+
+    /// The same for all columns: of many balls only those are looked at that reach the ends of the
+    /// union.
+    pub(crate) fn change_all(&mut self, cover: &Cover, dexels: &Dexels, balls: &[Seen]) -> Lengths {
+        let across = dexels.dims[0];
+        self.order(dexels, balls);
+        let Look { fresh, row, order, .. } = self;
+        fresh.clear();
+        fresh.resize(cover.columns.len(), [0.0; 2]);
+        for_tiles(dexels.dims, balls, order, 1, &mut |tile| {
+            for b in tile.b {
+                row.join_part(b, 0, [tile.a.start, tile.a.end], balls, tile.balls);
+                for (k, a) in tile.a.clone().enumerate() {
+                    let c = a + across * b;
+                    fresh[c] = lengths(row.joined(k), dexels.column(c));
+                }
+            }
+        });
+        let mut sum = Lengths::default();
+        let rows = fresh.chunks(across.max(1)).zip(cover.columns.chunks(across.max(1)));
+        for (new, old) in rows {
+            let mut part = [0.0f32; 2];
+            for (new, old) in new.iter().zip(old) {
+                part[0] += new[0] - old[0];
+                part[1] += new[1] - old[1];
             }
             sum.union += f64::from(part[0]);
             sum.both += f64::from(part[1]);

@@ -120,7 +120,7 @@ fn exchanges_are_changes() {
         let mut look = Look::default();
         let mut seen: Vec<Seen> = clump(40, 11).iter().map(|b| dexels.seen(b)).collect();
         cover.whole(&dexels, &seen, &mut look);
-        piles.fill(&dexels, &seen, look.order(&dexels, &seen));
+        piles.fill(&dexels, &seen, look.order(&dexels, &seen), u64::MAX).unwrap();
         let mut alone = vec![Lengths::default(); seen.len()];
         piles.alone(&dexels, &mut alone);
         let fresh = clump(90, 12);
@@ -136,7 +136,7 @@ fn exchanges_are_changes() {
             let fast = look.exchange(&cover, &piles, &dexels, &of, &moved);
             let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * dexels.target;
             assert!(close(slow.union, fast.union) && close(slow.both, fast.both));
-            look.take(&mut cover, &mut piles, &dexels, &mut alone);
+            look.take(&mut cover, &mut piles, &dexels, &moved, &mut alone);
             seen = moved;
         }
         let (mut whole, mut other) = (Cover::new(&dexels).unwrap(), Look::default());
@@ -179,4 +179,66 @@ fn a_change_costs_less_than_nothing_exactly_where_the_goal_falls() {
             assert!((cost / by - rise).abs() < 1e-12, "{overshoot}: {cost} {rise}");
         }
     }
+}
+
+/// Of so many balls most chords are left out of the piles, and nothing shows it.
+#[test]
+fn exchanges_of_many_balls_are_changes() {
+    let body = &bodies()[1];
+    let dexels = body.dexels(1500);
+    let (mut cover, mut piles) = (Cover::new(&dexels).unwrap(), Piles::new(&dexels).unwrap());
+    let mut look = Look::default();
+    let n = 700;
+    let mut random = Random::new(5, 5);
+    // All about one place, so that each column has hundreds.
+    let mut balls = |n: usize| -> Vec<Seen> {
+        let of = |_| {
+            let center = [0; 3].map(|_| random.between(0.35, 0.45) as f32);
+            dexels.seen(&Ball { center, radius: random.between(0.1, 0.25) as f32 })
+        };
+        (0..n).map(of).collect()
+    };
+    let mut seen = balls(n);
+    cover.whole(&dexels, &seen, &mut look);
+    let by_runs = {
+        let mut other = Look::default();
+        other.region.all(&dexels);
+        other.change(&Cover::new(&dexels).unwrap(), &dexels, &seen)
+    };
+    assert_eq!(by_runs, Cover::new(&dexels).unwrap().whole(&dexels, &seen, &mut look));
+    piles.fill(&dexels, &seen, look.order(&dexels, &seen), u64::MAX).unwrap();
+    let all: f64 = seen.iter().map(|s| f64::from(s.r * s.r) * std::f64::consts::PI).sum();
+    let least = piles.bytes() as f64 / 12.0;
+    assert!(least < 0.3 * all, "{least} of {all} chords");
+    let mut alone = vec![Lengths::default(); n];
+    piles.alone(&dexels, &mut alone);
+    // Few at a time, and so many that columns have to be made anew: those that reach farthest.
+    for (k, count) in [3, 12, 40, 12, 200, 5].into_iter().enumerate() {
+        let mut of: Vec<u32> = (0..n as u32).collect();
+        of.sort_by(|&i, &j| seen[j as usize].r.total_cmp(&seen[i as usize].r));
+        of.truncate(count);
+        of.sort_unstable();
+        let mut moved = seen.clone();
+        for (&j, s) in of.iter().zip(balls(count)) {
+            moved[j as usize] = Seen { r: if k % 2 == 0 { 0.5 * s.r } else { s.r }, ..s };
+        }
+        let both = of.iter().flat_map(|&j| [seen[j as usize], moved[j as usize]]);
+        look.region.of(&dexels, both);
+        let slow = look.change(&cover, &dexels, &moved);
+        let fast = look.exchange(&cover, &piles, &dexels, &of, &moved);
+        let close = |x: f64, y: f64| (x - y).abs() < 1e-5 * dexels.target;
+        assert!(close(slow.union, fast.union) && close(slow.both, fast.both), "{slow:?} {fast:?}");
+        look.take(&mut cover, &mut piles, &dexels, &moved, &mut alone);
+        seen = moved;
+        let mut other = Look::default();
+        let mut anew = vec![Lengths::default(); n];
+        other.region.all(&dexels);
+        other.alone(&dexels, &seen, 1.0, &mut anew);
+        for (x, y) in alone.iter().zip(&anew) {
+            assert!(close(x.union, y.union) && close(x.both, y.both), "{x:?} {y:?}");
+        }
+    }
+    let mut other = Piles::new(&dexels).unwrap();
+    let refused = other.fill(&dexels, &seen, look.order(&dexels, &seen), 1000);
+    assert!(matches!(refused, Err(crate::error::Error::MemoryLimit(_))));
 }

@@ -16,6 +16,7 @@ pub(crate) mod random;
 pub(crate) mod smooth;
 #[cfg(test)]
 pub(crate) mod test_bodies;
+pub(crate) mod tiles;
 
 use crate::error::{Error, Result};
 use crate::math::Vec3;

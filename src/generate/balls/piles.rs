@@ -1,11 +1,16 @@
 //! All chords of a clump, column by column: when a few balls change, the chords of the others are
 //! read instead of made again. Most chords of a deep pile lie within others: each knows the next
 //! that does not lie within it, so that a union is found in a few steps.
+//!
+//! Of very many balls most chords lie within so many others that no exchange brings them to light.
+//! They are left out, and a column knows how deep they lie; where more change than that, it is made
+//! anew. What is found is the same.
 
 use super::chords::{Row, single};
 use super::cover::{Lengths, Region};
 use super::dexels::{Dexels, Seen};
-use crate::error::{Result, filled};
+use super::tiles::{Top, for_tiles};
+use crate::error::{Error, Result, filled, fits};
 
 /// Lower end, upper end, number of the ball.
 pub(crate) type Chord = (f32, f32, u32);
@@ -25,13 +30,21 @@ struct Link {
 const NUMBER: u32 = 17;
 const WAY: u32 = (1 << (32 - NUMBER)) - 1;
 
-/// Where a column's chords are, and how many may be there before all are moved.
+/// Of more balls than this, chords are left out that lie within so many others.
+const FEW: usize = 128;
+const DEEP: usize = 8;
+
+/// Where a column's chords are, and how many may be there before they go elsewhere.
 #[derive(Debug, Clone, Copy, Default)]
 struct Place {
     start: u32,
     count: u32,
     room: u32,
+    /// Chords that are left out lie within so many others; [`ALL`] if none is.
+    deep: u32,
 }
+
+const ALL: u32 = u32::MAX;
 
 /// The chords of each column by their lower ends, column after column.
 #[derive(Debug, Clone)]
@@ -48,6 +61,8 @@ pub(crate) struct Exchange {
     order: Vec<u32>,
     marked: Vec<bool>,
     row: Row,
+    /// Chords of a column that is made anew.
+    anew: Vec<Chord>,
     /// The columns' new lengths, run after run of the region.
     pub fresh: Vec<[f32; 2]>,
 }
@@ -109,51 +124,75 @@ impl Piles {
         &self.links[start as usize..(start + count) as usize]
     }
 
-    /// All columns anew; `order`: the balls by their lower ends.
-    pub(crate) fn fill(&mut self, dexels: &Dexels, balls: &[Seen], order: &[u32]) {
+    /// All columns anew; `order`: the balls by their lower ends. In no more than `room` bytes.
+    pub(crate) fn fill(
+        &mut self,
+        dexels: &Dexels,
+        balls: &[Seen],
+        order: &[u32],
+        room: u64,
+    ) -> Result<()> {
         let mut row = Row::default();
         let across = dexels.dims[0];
-        self.links.clear();
-        for (b, places) in self.places.chunks_mut(across.max(1)).enumerate() {
-            row.cut_many(b, [0, across], balls, order);
-            for (k, place) in places.iter_mut().enumerate() {
-                let chords = row.single(k);
-                let (start, count) = (self.links.len() as u32, chords.len() as u32);
-                *place = Place { start, count, room: room(count) };
-                self.links.resize((start + place.room) as usize, Link::default());
-                pile(chords, &mut self.links[start as usize..]);
+        let deep = if balls.len() > FEW { DEEP } else { balls.len().max(1) };
+        let Piles { places, links } = self;
+        links.clear();
+        let (mut sieve, mut done) = (Sieve::default(), Ok(()));
+        for_tiles(dexels.dims, balls, order, deep, &mut |tile| {
+            if done.is_err() {
+                return;
             }
-        }
+            for b in tile.b.clone() {
+                row.cut_many(b, [tile.a.start, tile.a.end], balls, tile.balls);
+                for (k, a) in tile.a.clone().enumerate() {
+                    let (chords, sifted) = sieve.sift(row.single(k), deep);
+                    let deep = if sifted || tile.sifted { deep as u32 } else { ALL };
+                    places[a + across * b] = match lay(links, chords, room) {
+                        Ok(place) => Place { deep, ..place },
+                        Err(e) => return done = Err(e),
+                    };
+                }
+            }
+        });
+        done
     }
 
     /// Puts other chords into a column.
-    fn put(&mut self, c: usize, chords: &[Chord]) {
+    fn put(&mut self, c: usize, chords: &[Chord], deep: u32) {
         let count = chords.len() as u32;
-        if count > self.places[c].room {
-            // All move: not often, as each has room for some more.
-            let before = std::mem::take(&mut self.links);
-            for (k, place) in self.places.iter_mut().enumerate() {
-                let old = place.start as usize..(place.start + place.count) as usize;
-                place.start = self.links.len() as u32;
-                place.room = room(if k == c { count } else { place.count });
-                self.links.extend_from_slice(&before[old]);
-                self.links.resize((place.start + place.room) as usize, Link::default());
-            }
-        }
         let place = &mut self.places[c];
+        if count > place.room {
+            // To the end: not often, as there is room for some more, and all are made anew now and
+            // then.
+            (place.start, place.room) = (self.links.len() as u32, room(count));
+            self.links.resize(self.links.len() + place.room as usize, Link::default());
+        }
         place.count = count;
+        place.deep = deep;
         pile(chords, &mut self.links[place.start as usize..]);
     }
 
-    /// What the region's columns hold after the exchange, less `now`.
+    /// How deep chords of column `c` that are left out still lie without the marked balls.
+    #[inline(always)]
+    fn left(&self, c: usize, marked: &[bool]) -> u32 {
+        let deep = self.places[c].deep;
+        if deep == ALL {
+            return ALL;
+        }
+        let gone = self.column(c).iter().filter(|l| marked[l.ball() as usize]).count();
+        deep.saturating_sub(gone as u32)
+    }
+
+    /// What the region's columns hold after the exchange, less `now`; `all`: the balls after it.
     pub(crate) fn change(
         &self,
         dexels: &Dexels,
         region: &Region,
         exchange: &mut Exchange,
+        all: &[Seen],
         now: &[[f32; 2]],
     ) -> Lengths {
-        let Exchange { seen, order, marked, row, fresh, .. } = exchange;
+        let Exchange { numbers, seen, order, marked, row, anew, fresh } = exchange;
         fresh.clear();
         let mut sum = Lengths::default();
         for (b, [from, to]) in region.runs() {
@@ -163,7 +202,12 @@ impl Piles {
             for k in 0..to - from {
                 let c = first + k;
                 let mut lengths = Union::new(dexels.column(c));
-                outer(self.column(c), marked, row.single(k), |lo, hi| lengths.add(lo, hi));
+                if numbers.len() as u32 >= self.places[c].deep && self.left(c, marked) == 0 {
+                    cut(b, from + k, all, anew);
+                    anew.iter().for_each(|&(lo, hi, _)| lengths.add(lo, hi));
+                } else {
+                    outer(self.column(c), marked, row.single(k), |lo, hi| lengths.add(lo, hi));
+                }
                 let (new, old) = (lengths.end(), now[c]);
                 part[0] += new[0] - old[0];
                 part[1] += new[1] - old[1];
@@ -181,10 +225,12 @@ impl Piles {
         dexels: &Dexels,
         region: &Region,
         exchange: &mut Exchange,
+        all: &[Seen],
         alone: &mut [Lengths],
     ) {
-        let Exchange { numbers, seen, order, marked, row, .. } = exchange;
+        let Exchange { numbers, seen, order, marked, row, anew, .. } = exchange;
         let mut merged: Vec<Chord> = Vec::new();
+        let mut sieve = Sieve::default();
         for (b, [from, to]) in region.runs() {
             row.cut(b, [from, to], seen, order);
             let first = b * dexels.dims[0] + from;
@@ -193,6 +239,15 @@ impl Piles {
                 let inside = dexels.column(first + k);
                 count(column.iter().map(Link::chord), inside, -1.0, alone);
                 merged.clear();
+                let left = self.left(first + k, marked);
+                if left < 2 {
+                    // What one ball covers alone must be seen.
+                    cut(b, from + k, all, anew);
+                    let (chords, sifted) = sieve.sift(anew, DEEP);
+                    self.put(first + k, chords, if sifted { DEEP as u32 } else { ALL });
+                    count(chords.iter().copied(), inside, 1.0, alone);
+                    continue;
+                }
                 merge(column, marked, row.single(k), |chord| merged.push(chord));
                 // New chords carry their number among those exchanged, beyond all others.
                 for chord in &mut merged {
@@ -200,7 +255,7 @@ impl Piles {
                         chord.2 = numbers[(chord.2 & !NEW) as usize];
                     }
                 }
-                self.put(first + k, &merged);
+                self.put(first + k, &merged, left);
                 count(merged.iter().copied(), inside, 1.0, alone);
             }
         }
@@ -216,6 +271,64 @@ impl Piles {
 
 /// The mark of a new chord's number.
 const NEW: u32 = 1 << 31;
+
+/// Leaves chords out that lie within many others.
+#[derive(Debug, Default)]
+struct Sieve {
+    top: Top,
+    left: Vec<Chord>,
+}
+
+impl Sieve {
+    /// Of chords that come by their lower ends those that do not lie within `deep` others, and
+    /// whether there are more.
+    fn sift<'a>(&'a mut self, chords: &'a [Chord], deep: usize) -> (&'a [Chord], bool) {
+        if chords.len() <= deep {
+            return (chords, false);
+        }
+        let Sieve { top, left } = self;
+        top.clear();
+        left.clear();
+        for chord in chords {
+            if !top.covers(chord.1, deep) {
+                left.push(*chord);
+            }
+            top.add(chord.1, deep);
+        }
+        (left, left.len() < chords.len())
+    }
+}
+
+/// All chords of the column (a, b), by their lower ends.
+fn cut(b: usize, a: usize, balls: &[Seen], out: &mut Vec<Chord>) {
+    out.clear();
+    for (i, s) in (0u32..).zip(balls) {
+        let (x, y) = (a as f32 - s.u, b as f32 - s.v);
+        let q = s.r * s.r - y * y - x * x;
+        if q > 0.0 {
+            out.push((s.t - q.sqrt(), s.t + q.sqrt(), i));
+        }
+    }
+    out.sort_by(|x, y| x.0.total_cmp(&y.0));
+}
+
+/// Adds a column's chords.
+fn lay(links: &mut Vec<Link>, chords: &[Chord], most: u64) -> Result<Place> {
+    let (start, count) = (links.len(), chords.len() as u32);
+    let place = Place { start: start as u32, count, room: room(count), deep: ALL };
+    let end = start + place.room as usize;
+    if end > links.capacity() {
+        let wanted = (end + end / 4) as u64 * size_of::<Link>() as u64;
+        fits(format_args!("the chords of columns"), wanted, most)?;
+        let missing = end + end / 4 - links.len();
+        links.try_reserve_exact(missing).map_err(|_| {
+            Error::OutOfMemory(format!("no memory for the chords of columns: {wanted} bytes"))
+        })?;
+    }
+    links.resize(end, Link::default());
+    pile(chords, &mut links[start..]);
+    Ok(place)
+}
 
 /// Chords of a column for which there is room when so many are there.
 fn room(count: u32) -> u32 {

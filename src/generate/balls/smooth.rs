@@ -144,15 +144,9 @@ impl Smooth {
         Ok(Smooth { weight, points, seen, nearest, sum: 0.0, between, area, scale, step })
     }
 
-    /// All points and columns anew; `region` has all.
-    pub(crate) fn whole(
-        &mut self,
-        dexels: &Dexels,
-        region: &Region,
-        balls: &[Seen],
-        buffers: &mut Buffers,
-    ) {
-        self.between.whole(dexels, region, balls, &mut buffers.columns);
+    /// All points and columns anew.
+    pub(crate) fn whole(&mut self, dexels: &Dexels, balls: &[Seen], buffers: &mut Buffers) {
+        self.between.whole(dexels, balls, &mut buffers.columns);
         let Smooth { seen, nearest, sum, .. } = self;
         nearest.clear();
         nearest.extend(seen.iter().map(|p| {

@@ -77,9 +77,7 @@ fn charges_are_those_of_all_distances_and_changes_add_up() {
             let diameter = (6.0 * volume / std::f64::consts::PI).cbrt();
             let mut whole = Between::new(&field, &dexels, u64::MAX).unwrap();
             let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
-            let mut region = Region::default();
-            region.all(&dexels);
-            whole.whole(&dexels, &region, &seen, &mut Fresh::default());
+            whole.whole(&dexels, &seen, &mut Fresh::default());
             let back = 2.0 * whole.sum(0.0) * dexels.cell() / area;
             2.5 * 3.0 * (0.5 * (sum / points.len() as f64 + back)).sqrt() / diameter
         };
@@ -94,8 +92,7 @@ fn charges_are_those_of_all_distances_and_changes_add_up() {
         let mut balls = clump(20, 3);
         let mut seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
         let mut look = Look::default();
-        look.region.all(&dexels);
-        smooth.whole(&dexels, &look.region, &seen, &mut look.smooth);
+        smooth.whole(&dexels, &seen, &mut look.smooth);
         for some in clump(40, 9).chunks(2) {
             assert!((smooth.now() / charge(&balls) - 1.0).abs() < 1e-4);
             let of = [0, 9].map(|k| (some[0].radius.to_bits() + k) % 20);
@@ -131,8 +128,7 @@ fn pulls_are_the_slopes_of_the_charge() {
     .unwrap();
     let seen: Vec<Seen> = balls.iter().map(|b| dexels.seen(b)).collect();
     let mut look = Look::default();
-    look.region.all(&dexels);
-    smooth.whole(&dexels, &look.region, &seen, &mut look.smooth);
+    smooth.whole(&dexels, &seen, &mut look.smooth);
     let back = smooth.distance([0.0; 2]).powi(2)
         - 0.5 * smooth.step.powi(2) * smooth.sum / points.len() as f64;
     let volumes = 0.3;

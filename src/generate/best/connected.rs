@@ -2,6 +2,8 @@
 //! are joined in the way that costs least, and no move or refinement parts them again.
 
 use super::state::State;
+use super::watch::Watch;
+use crate::error::Result;
 use crate::generate::ball::Ball;
 use crate::generate::balls::cover::Look;
 use crate::generate::balls::near::Near;
@@ -67,16 +69,19 @@ fn group<I: Iterator<Item = u32>>(n: usize, beside: impl Fn(usize) -> I) -> (Vec
 }
 
 /// Joins the parts of a clump, as many as the limits allow; returns how many there are then.
-pub(super) fn join(state: &mut State, look: &mut Look) -> usize {
+pub(super) fn join(state: &mut State, look: &mut Look, watch: &Watch) -> Result<usize> {
     let mut near = Near::default();
     loop {
         let (part, count) = parts(&state.balls, &mut near);
-        if count < 2 {
-            return count;
+        if count < 2 || !watch.go() {
+            return Ok(count);
         }
-        let Some([i, j]) = closest(&state.balls, &part) else { return count };
+        let Some([i, j]) = closest(&state.balls, &part) else { return Ok(count) };
         let mut best: Option<(f64, Vec<Ball>)> = None;
         for mut balls in ways(state, &part, [i, j]) {
+            if !watch.go() {
+                break;
+            }
             state.orbits.even(&state.balls, &mut balls);
             if parts(&balls, &mut near).1 >= count {
                 continue;
@@ -86,9 +91,9 @@ pub(super) fn join(state: &mut State, look: &mut Look) -> usize {
                 best = Some((cost, balls));
             }
         }
-        let Some((_, balls)) = best else { return count };
+        let Some((_, balls)) = best else { return Ok(count) };
         state.balls = balls;
-        state.renew(look);
+        state.renew(look)?;
     }
 }
 

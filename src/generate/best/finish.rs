@@ -4,6 +4,7 @@ use super::connected;
 use super::limits::Exact;
 use super::symmetry::Orbits;
 use super::volume;
+use super::watch::Watch;
 use crate::error::{Error, Result, figure, reserve};
 use crate::generate::ball::Ball;
 use crate::math::{Sphere, UnitFrame};
@@ -16,7 +17,7 @@ pub(super) fn finish(
     orbits: &Orbits,
     frame: &UnitFrame,
     exact: &Exact,
-    (volume, pool): (Option<f64>, &Pool),
+    (volume, pool, watch): (Option<f64>, &Pool, &Watch),
 ) -> Result<(Vec<Sphere>, String)> {
     let n = balls.len();
     let mut leads = orbits.leads(n);
@@ -42,7 +43,7 @@ pub(super) fn finish(
         )));
     }
     let mut note = match volume {
-        Some(volume) => volume::fit(&mut spheres, &sizes, frame, exact, volume, pool)?,
+        Some(volume) => volume::fit(&mut spheres, &sizes, frame, exact, volume, (pool, watch))?,
         None => String::new(),
     };
     spheres.sort_by(|x, y| y.radius.total_cmp(&x.radius));

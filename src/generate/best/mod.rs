@@ -21,6 +21,7 @@ mod state;
 mod symmetry;
 mod target;
 mod volume;
+mod watch;
 
 pub use effort::Effort;
 pub use options::{BestOptions, HalfSpace, Symmetry};
@@ -37,6 +38,7 @@ use refine::Radii;
 use search::{BATCH, Search};
 use start::Start;
 use state::Ground;
+use watch::Watch;
 
 /// Most spheres of a clump. Their numbers fit in the tags of chords.
 const MOST: usize = 100_000;
@@ -90,18 +92,14 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         overshoot,
         connected: asked.connected,
         size: size as f32,
+        room: solid.memory_limit().saturating_sub(solid.bytes() + field.bytes() + dexels.bytes()),
     };
     let mut look = Look::default();
-    let mut stopped = Stopped::Spheres;
+    let watch = Watch::new(run);
     let mut done = 0.0;
     let mut go = || {
         done += 1.0 / plan.iterations as f64;
-        if run.cancelled(0.1 + 0.3 * f64::min(done, 1.0)) {
-            stopped = Stopped::Cancelled;
-        } else if run.late() {
-            stopped = Stopped::Deadline;
-        }
-        stopped == Stopped::Spheres
+        watch.at(0.1 + 0.3 * f64::min(done, 1.0))
     };
     let smooth = if asked.smoothness > 0.0 {
         let held = solid.bytes() + field.bytes() + dexels.bytes();
@@ -113,40 +111,36 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     };
     let start = Start { ground, plan, n, seed: run.seed(), pool: run.pool() };
     let mut state = start.best(&choices, smooth, &mut look, &mut go)?;
-    state.join(&mut look);
+    state.join(&mut look, &watch)?;
     run.count(|c| {
         let held = solid.bytes() + field.bytes() + dexels.bytes() + state.bytes();
         c.peak_bytes = c.peak_bytes.max(held);
     });
-    let mut search = Search::new(&mut state, run.seed(), run.pool());
+    let mut search = Search::new(&mut state, run.seed(), run.pool(), &watch);
     let batches = plan.moves.div_ceil(BATCH);
     for k in 0..batches {
-        if run.cancelled(0.4 + 0.5 * k as f64 / batches as f64) {
-            stopped = Stopped::Cancelled;
-        } else if run.late() {
-            stopped = Stopped::Deadline;
-        }
-        if stopped != Stopped::Spheres {
+        if !watch.at(0.4 + 0.5 * k as f64 / batches as f64) {
             break;
         }
-        search.batch();
+        search.batch()?;
     }
-    if stopped == Stopped::Spheres && plan.polish[1] > 0 {
-        search.polish(plan.polish);
+    if watch.at(0.9) && plan.polish[1] > 0 {
+        search.polish(plan.polish)?;
     }
     let mut whole = None;
     if asked.equal_volume {
         whole = Some(target::volume(solid, &planes, run)?);
-        if stopped == Stopped::Spheres {
-            volume::swell(&mut search, plan.polish.map(|count| count.max(LAST)));
+        if watch.at(0.95) {
+            volume::swell(&mut search, plan.polish.map(|count| count.max(LAST)))?;
         }
     }
     let d = state.mismatch();
-    let volume = (whole, run.pool());
+    let volume = (whole, run.pool(), &watch);
     let (spheres, mut short) = finish::finish(&state.balls, &state.orbits, frame, &exact, volume)?;
     if let Some(chosen) = state.orbits.sites() {
         short = [symmetry::note(chosen, wanted, n), short].concat();
     }
+    let mut stopped = watch.stopped().unwrap_or(Stopped::Spheres);
     if n < wanted && stopped == Stopped::Spheres {
         stopped = Stopped::Exhausted;
     }

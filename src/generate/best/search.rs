@@ -5,6 +5,8 @@
 use super::moves::{Fans, Moved, Mover};
 use super::refine::{Refiner, Schedule};
 use super::state::State;
+use super::watch::Watch;
+use crate::error::Result;
 use crate::generate::ball::Ball;
 use crate::generate::balls::cover::Look;
 use crate::generate::balls::directions::Directions;
@@ -27,6 +29,7 @@ const SHARED: usize = 6144;
 pub(super) struct Search<'s, 'a> {
     pub state: &'s mut State<'a>,
     pool: &'s Pool,
+    pub watch: &'s Watch<'s>,
     fans: Fans,
     movers: Vec<Mutex<Mover<'a>>>,
     look: Look,
@@ -40,10 +43,16 @@ pub(super) struct Search<'s, 'a> {
 }
 
 impl<'s, 'a> Search<'s, 'a> {
-    pub(super) fn new(state: &'s mut State<'a>, seed: u64, pool: &'s Pool) -> Search<'s, 'a> {
+    pub(super) fn new(
+        state: &'s mut State<'a>,
+        seed: u64,
+        pool: &'s Pool,
+        watch: &'s Watch<'s>,
+    ) -> Search<'s, 'a> {
         Search {
             state,
             pool,
+            watch,
             fans: Fans::new(),
             movers: (0..BATCH).map(|_| Mutex::default()).collect(),
             look: Look::default(),
@@ -57,7 +66,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Tries a batch of moves.
-    pub(super) fn batch(&mut self) {
+    pub(super) fn batch(&mut self) -> Result<()> {
         let picked: Vec<usize> = (0..BATCH).map(|_| self.pick()).collect();
         let (state, fans, movers) = (&*self.state, &self.fans, &self.movers);
         let (seed, moves) = (self.seed, self.moves);
@@ -78,11 +87,12 @@ impl<'s, 'a> Search<'s, 'a> {
                 self.helped += 1;
                 if self.helped >= self.enough {
                     self.enough += HELPED + (self.state.balls.len() / HELPED_OF) as u64;
-                    self.settle(20, [1.2, 0.25], &Directions::new(192));
+                    self.settle(20, [1.2, 0.25], &Directions::new(192))?;
                     break;
                 }
             }
         }
+        Ok(())
     }
 
     /// The ball that is moved next.
@@ -108,37 +118,43 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The last refinement, with this many directions and iterations.
-    pub(super) fn polish(&mut self, [directions, iterations]: [usize; 2]) {
-        self.settle(iterations, [0.8, 0.04], &Directions::new(directions));
+    pub(super) fn polish(&mut self, [directions, iterations]: [usize; 2]) -> Result<()> {
+        self.settle(iterations, [0.8, 0.04], &Directions::new(directions))
     }
 
     /// Refines all balls, with Huber's widths at the first and last iteration in units of the
     /// state's; the clump stays as it was where that does not help.
-    fn settle(&mut self, iterations: usize, [from, to]: [f32; 2], directions: &Directions) {
+    fn settle(
+        &mut self,
+        iterations: usize,
+        [from, to]: [f32; 2],
+        directions: &Directions,
+    ) -> Result<()> {
         let before = (self.state.goal(), self.state.parts);
         let weights = self.state.weights();
         let balls = self.refined(iterations, [from, to], directions, weights);
         let old = std::mem::replace(&mut self.state.balls, balls);
-        self.state.renew(&mut self.look);
-        self.state.join(&mut self.look);
+        self.state.renew(&mut self.look)?;
+        self.state.join(&mut self.look, self.watch)?;
         if self.state.goal() >= before.0 || self.state.parts > before.1 {
             self.state.parts = before.1;
-            self.put(old);
+            self.put(old)?;
         } else {
             self.state.measure_width(self.refiner.area);
         }
+        Ok(())
     }
 
     /// Puts other balls in the place of all.
-    pub(super) fn put(&mut self, balls: Vec<Ball>) {
+    pub(super) fn put(&mut self, balls: Vec<Ball>) -> Result<()> {
         self.state.balls = balls;
-        self.state.renew(&mut self.look);
+        self.state.renew(&mut self.look)
     }
 
     /// The same, and joins them where they must hang together.
-    pub(super) fn put_joined(&mut self, balls: Vec<Ball>) {
-        self.put(balls);
-        self.state.join(&mut self.look);
+    pub(super) fn put_joined(&mut self, balls: Vec<Ball>) -> Result<()> {
+        self.put(balls)?;
+        self.state.join(&mut self.look, self.watch)
     }
 
     /// All balls after a refinement.
@@ -155,8 +171,8 @@ impl<'s, 'a> Search<'s, 'a> {
         let task = state.ground.task(directions, weights, &state.orbits, state.pull());
         let schedule = Schedule { iterations, from: from * state.width, to: to * state.width };
         let shared = (all.len() * directions.len() >= SHARED).then_some(self.pool);
-        let random = &mut self.random;
-        self.refiner.refine(&task, &schedule, &mut balls, &all, random, shared, &mut || true);
+        let (random, go) = (&mut self.random, &mut || self.watch.go());
+        self.refiner.refine(&task, &schedule, &mut balls, &all, random, shared, go);
         balls
     }
 

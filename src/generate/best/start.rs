@@ -80,7 +80,7 @@ impl<'a> Start<'a> {
         state.width = width;
         let directions = Directions::new(plan.directions);
         let iterations = plan.iterations - plan.iterations / 2;
-        self.settle(&mut state, &directions, iterations, &mut random, shared, look, go);
+        self.settle(&mut state, &directions, iterations, &mut random, shared, look, go)?;
         Ok(state)
     }
 
@@ -119,7 +119,7 @@ impl<'a> Start<'a> {
         state.measure_width(refiner.area);
         if go() {
             let iterations = plan.iterations - first;
-            self.settle(&mut state, &directions, iterations, random, pool, look, go);
+            self.settle(&mut state, &directions, iterations, random, pool, look, go)?;
         }
         Ok(state)
     }
@@ -135,7 +135,7 @@ impl<'a> Start<'a> {
         pool: Option<&Pool>,
         look: &mut Look,
         go: &mut dyn FnMut() -> bool,
-    ) {
+    ) -> Result<()> {
         let mut refiner = Refiner::default();
         let leads = state.orbits.leads(state.balls.len());
         let task = self.ground.task(directions, state.weights(), &state.orbits, state.pull());
@@ -143,8 +143,9 @@ impl<'a> Start<'a> {
         let mut balls = state.balls.clone();
         refiner.refine(&task, &schedule, &mut balls, &leads, random, pool, go);
         state.balls = balls;
-        state.renew(look);
+        state.renew(look)?;
         state.measure_width(refiner.area);
+        Ok(())
     }
 }
 

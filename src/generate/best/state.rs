@@ -5,6 +5,7 @@ use super::connected;
 use super::limits::Limits;
 use super::refine::{Radii, Task};
 use super::symmetry::Orbits;
+use super::watch::Watch;
 use crate::error::{Result, filled, reserve};
 use crate::generate::ball::Ball;
 use crate::generate::balls::cover::{Cover, Lengths, Look};
@@ -30,6 +31,8 @@ pub(super) struct Ground<'a> {
     pub connected: bool,
     /// A length of the order of the body.
     pub size: f32,
+    /// Bytes that are left of the memory limit.
+    pub room: u64,
 }
 
 impl Ground<'_> {
@@ -104,7 +107,7 @@ impl<'a> State<'a> {
             version: 0,
             width: ground.size,
         };
-        state.renew(look);
+        state.renew(look)?;
         Ok(state)
     }
 
@@ -224,33 +227,35 @@ impl<'a> State<'a> {
     }
 
     /// Counts everything anew from the balls.
-    pub(super) fn renew(&mut self, look: &mut Look) {
+    pub(super) fn renew(&mut self, look: &mut Look) -> Result<()> {
         let dexels = self.ground.dexels;
         self.version += 1;
         self.seen.clear();
         self.seen.extend(self.balls.iter().map(|b| dexels.seen(b)));
         self.lengths = self.cover.whole(dexels, &self.seen, look);
         if let Some(smooth) = &mut self.smooth {
-            look.region.all(dexels);
-            smooth.whole(dexels, &look.region, &self.seen, &mut look.smooth);
+            smooth.whole(dexels, &self.seen, &mut look.smooth);
         }
         if !self.books {
-            return;
+            return Ok(());
         }
         self.alone.fill(Lengths::default());
-        self.piles.fill(dexels, &self.seen, look.order(dexels, &self.seen));
+        let order = look.order(dexels, &self.seen);
+        self.piles.fill(dexels, &self.seen, order, self.ground.room)?;
         self.piles.alone(dexels, &mut self.alone);
         self.rows.clear();
         for b in 0..dexels.dims[1] {
             self.rows.push(self.row(b));
         }
+        Ok(())
     }
 
     /// Joins the parts of a clump that must hang together.
-    pub(super) fn join(&mut self, look: &mut Look) {
+    pub(super) fn join(&mut self, look: &mut Look, watch: &Watch) -> Result<()> {
         if self.ground.connected {
-            self.parts = connected::join(self, look);
+            self.parts = connected::join(self, look, watch)?;
         }
+        Ok(())
     }
 
     /// How many parts there are now, where the clump must hang together; else 1.
@@ -273,8 +278,7 @@ impl<'a> State<'a> {
     /// By how much the cost would rise if these were the balls.
     pub(super) fn cost_of(&self, balls: &[Ball], look: &mut Look) -> f64 {
         let seen: Vec<Seen> = balls.iter().map(|b| self.ground.dexels.seen(b)).collect();
-        look.region.all(self.ground.dexels);
-        self.cost(&look.change(&self.cover, self.ground.dexels, &seen))
+        self.cost(&look.change_all(&self.cover, self.ground.dexels, &seen))
     }
 
     /// Puts `balls` to the places of those with the numbers `of` if the goal falls; whether it does.
@@ -291,7 +295,7 @@ impl<'a> State<'a> {
         if let Some(smooth) = &mut self.smooth {
             smooth.take(dexels, &look.region, distances, &look.smooth);
         }
-        look.take(&mut self.cover, &mut self.piles, dexels, &mut self.alone);
+        look.take(&mut self.cover, &mut self.piles, dexels, &seen, &mut self.alone);
         for b in look.region.rows() {
             self.rows[b] = self.row(b);
         }

@@ -6,6 +6,7 @@
 
 use super::limits::Exact;
 use super::search::Search;
+use super::watch::Watch;
 use crate::error::Result;
 use crate::generate::ball::Ball;
 use crate::math::{Sphere, UnitFrame, Vec3};
@@ -34,10 +35,10 @@ fn grown(balls: &[Ball], room: &[f32], by: f64, [least, most]: [f32; 2]) -> Vec<
 
 /// Changes the search's clump to one of the target's volume by its own columns: of those from
 /// several multipliers that of the least goal.
-pub(super) fn swell(search: &mut Search, polish: [usize; 2]) {
+pub(super) fn swell(search: &mut Search, polish: [usize; 2]) -> Result<()> {
     let start = search.state.balls.clone();
     let first = search.state.excess();
-    let mut best = even(search);
+    let mut best = even(search)?;
     let weights = search.state.weights();
     let [inside, outside] = [weights.inside, weights.outside].map(f64::from);
     let sum = inside + outside;
@@ -48,11 +49,14 @@ pub(super) fn swell(search: &mut Search, polish: [usize; 2]) {
     let mut shift = -first / slope;
     for _ in 0..ROUNDS {
         shift = shift.clamp(range[0], range[1]);
-        search.put(start.clone());
+        search.put(start.clone())?;
         let balls = search.swollen(polish, shift);
-        search.put_joined(balls);
+        if !search.watch.go() {
+            break;
+        }
+        search.put_joined(balls)?;
         let excess = search.state.excess();
-        let found = even(search);
+        let found = even(search)?;
         if found.0 < best.0 {
             best = found;
         }
@@ -63,30 +67,37 @@ pub(super) fn swell(search: &mut Search, polish: [usize; 2]) {
         }
         shift -= excess * run / rise;
     }
-    search.put(best.1);
+    search.put(best.1)?;
     search.state.parts = search.state.pieces();
+    Ok(())
 }
 
 /// Gives the search's clump the target's volume by a change of all radii; how far it then is from
 /// what is wanted.
-fn even(search: &mut Search) -> (f64, Vec<Ball>) {
+fn even(search: &mut Search) -> Result<(f64, Vec<Ball>)> {
     let start = search.state.balls.clone();
     let ground = search.state.ground;
     let room: Vec<f32> = start.iter().map(|b| ground.limits.room(ground.field, b)).collect();
     let ends = [ground.radii.least, ground.radii.most];
-    let width = f64::from(search.state.width);
+    let (width, watch) = (f64::from(search.state.width), search.watch);
     let mut excess = |by: f64| {
-        search.put(grown(&start, &room, by, ends));
+        search.put(grown(&start, &room, by, ends))?;
         Ok(search.state.excess())
     };
-    let _: Result<_> = solve(&mut excess, width, 1e-5);
+    solve(&mut excess, width, 1e-5, watch)?;
     let missed = (search.state.excess().abs() - 1e-4).max(0.0);
     let parts = search.state.pieces() as f64;
-    (search.state.goal() + CHARGE * (missed + parts), search.state.balls.clone())
+    Ok((search.state.goal() + CHARGE * (missed + parts), search.state.balls.clone()))
 }
 
-/// A place where `excess`, which rises, is about 0, or the last one tried; and the excess there.
-fn solve(excess: &mut dyn FnMut(f64) -> Result<f64>, width: f64, good: f64) -> Result<(f64, f64)> {
+/// A place where `excess`, which rises, is about 0, or the last one tried, which is also what is
+/// given when the search stops; and the excess there.
+fn solve(
+    excess: &mut dyn FnMut(f64) -> Result<f64>,
+    width: f64,
+    good: f64,
+    watch: &Watch,
+) -> Result<(f64, f64)> {
     let mut at = (0.0, excess(0.0)?);
     if at.1.abs() <= good {
         return Ok(at);
@@ -95,6 +106,9 @@ fn solve(excess: &mut dyn FnMut(f64) -> Result<f64>, width: f64, good: f64) -> R
     let mut by = -width * at.1.signum();
     let mut other = at;
     for _ in 0..24 {
+        if !watch.go() {
+            return Ok(other);
+        }
         other = (other.0 + by, excess(other.0 + by)?);
         if other.1.abs() <= good || other.1.signum() != at.1.signum() {
             break;
@@ -108,7 +122,7 @@ fn solve(excess: &mut dyn FnMut(f64) -> Result<f64>, width: f64, good: f64) -> R
     // Illinois' false position.
     let (mut a, mut b) = (at, other);
     for _ in 0..40 {
-        if b.1.abs() <= good || (b.0 - a.0).abs() <= 1e-15 * b.0.abs() {
+        if !watch.go() || b.1.abs() <= good || (b.0 - a.0).abs() <= 1e-15 * b.0.abs() {
             break;
         }
         let x = b.0 - b.1 * (b.0 - a.0) / (b.1 - a.1);
@@ -132,7 +146,7 @@ pub(super) fn fit(
     frame: &UnitFrame,
     exact: &Exact,
     volume: f64,
-    pool: &Pool,
+    (pool, watch): (&Pool, &Watch),
 ) -> Result<String> {
     let start: Vec<Sphere> = spheres.iter().map(|s| frame.sphere_to_unit(s)).collect();
     let mut ends: Vec<[f64; 2]> = spheres
@@ -154,7 +168,7 @@ pub(super) fn fit(
         }
         Ok(union(&now, lattice, pool)? / volume - 1.0)
     };
-    let (by, left) = solve(&mut excess, 1e-4 * volume.cbrt(), SOLVED)?;
+    let (by, left) = solve(&mut excess, 1e-4 * volume.cbrt(), SOLVED, watch)?;
     for ((s, start), [least, most]) in spheres.iter_mut().zip(&start).zip(&ends) {
         s.radius = (start.radius + by).max(*least).min(*most) * frame.scale;
     }
@@ -198,6 +212,7 @@ fn union(spheres: &[Sphere], lattice: Lattice, pool: &Pool) -> Result<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Run;
 
     #[test]
     fn volumes_of_unions_are_those_of_formulas() {
@@ -215,17 +230,19 @@ mod tests {
 
     #[test]
     fn rising_functions_are_solved_or_followed_to_their_end() {
+        let run = Run::serial();
+        let watch = Watch::new(&run);
         for (power, root) in [(1, 0.3), (3, -0.7), (5, 4.0), (1, 0.0)] {
             let mut looks = 0;
             let mut f = |x: f64| {
                 looks += 1;
                 Ok((1.0 + x - root).powi(power) - 1.0)
             };
-            let (x, _) = solve(&mut f, 0.01, 1e-9).unwrap();
+            let (x, _) = solve(&mut f, 0.01, 1e-9, &watch).unwrap();
             assert!((x - root).abs() < 1e-6, "{power} {root}: {x}");
             assert!(looks < 60);
         }
-        let (x, y) = solve(&mut |x: f64| Ok(x.min(0.5) - 0.6), 0.01, 1e-9).unwrap();
+        let (x, y) = solve(&mut |x: f64| Ok(x.min(0.5) - 0.6), 0.01, 1e-9, &watch).unwrap();
         assert!(x >= 0.5 && (y + 0.1).abs() < 1e-12);
     }
 }
