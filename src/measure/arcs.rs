@@ -54,12 +54,22 @@ fn across(axis: &Vec3) -> (Vec3, Vec3) {
 }
 
 /// Exposed arcs of sphere `i` with neighbours that have more caps (of as many, the later).
-pub(super) fn arcs_of(spheres: &[Sphere], caps: &[Vec<Cap>], i: usize) -> Vec<(u32, u32, Arc)> {
+/// `never`: spheres that are wholly hidden.
+pub(super) fn arcs_of(
+    spheres: &[Sphere],
+    caps: &[Vec<Cap>],
+    never: &[bool],
+    i: usize,
+) -> Vec<(u32, u32, Arc)> {
     let s = &spheres[i];
     let mut out = Vec::new();
+    if never[i] {
+        return out;
+    }
     let mut hidden = Vec::new();
     let rank = |i: usize| (caps[i].len(), i);
-    'caps: for c in caps[i].iter().filter(|c| rank(c.by as usize) > rank(i)) {
+    let later = |c: &&Cap| !never[c.by as usize] && rank(c.by as usize) > rank(i);
+    'caps: for c in caps[i].iter().filter(later) {
         let sin = (1.0 - c.cos * c.cos).max(0.0).sqrt();
         let (e1, e2) = across(&c.axis);
         hidden.clear();

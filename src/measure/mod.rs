@@ -2,6 +2,7 @@
 
 mod arcs;
 mod bound;
+mod matter;
 mod overlap;
 mod pieces;
 mod planes;

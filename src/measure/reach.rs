@@ -258,11 +258,8 @@ pub(super) fn target_to_clump(
         Aim { length: TOLERANCE, share: SHARE, most: pieces(union.spheres.len()), coarse },
         run,
         |t: &[Vec3; 3]| {
-            let c = (t[0] + t[1] + t[2]) / 3.0;
-            let (x, distance) = union.nearest(&c);
-            let reach = t.iter().map(|v| (v - c).norm()).fold(0.0, f64::max);
-            let farthest = t.iter().map(|v| (v - x).norm()).fold(0.0, f64::max);
-            Range { attained: distance, bound: farthest.min(distance + reach) }
+            let (attained, bound) = union.reach(t);
+            Range { attained, bound }
         },
         |[a, b, c], out| {
             let [x, y, z] = [(a + b) * 0.5, (b + c) * 0.5, (c + a) * 0.5];

@@ -2,6 +2,7 @@
 //! and the nearest point of it, exactly.
 
 use super::arcs::{Arc, Part, arcs_of, beyond, free};
+use super::matter::Matter;
 use super::tree::Tree;
 use crate::error::{Error, Result, filled};
 use crate::math::{Sphere, Vec3};
@@ -15,9 +16,7 @@ const GROUP: usize = 64;
 /// Slices of a sphere in which its exposed area is exact.
 const SLICES: usize = 96;
 /// Of more caps than this, those about a direction are found by the tree.
-const MANY: usize = 24;
-/// Caps that may hide others, the most hiding of a sphere.
-const GREAT: usize = 32;
+const MANY: usize = 96;
 
 /// The part of a sphere that another hides: directions d with d · axis > cos.
 #[derive(Debug, Clone, Copy)]
@@ -33,12 +32,15 @@ pub(super) struct Union<'a> {
     pub spheres: &'a [Sphere],
     /// Spheres that lie wholly in one other; of equal ones, all but the first.
     pub swallowed: Vec<bool>,
-    /// Caps of each sphere, the most hiding first, without most that lie in another.
+    /// Caps of each sphere, the most hiding first, without most that hide nothing alone.
     pub caps: Vec<Vec<Cap>>,
+    /// Spheres that are wholly hidden: some of them, told early.
+    hidden: Vec<bool>,
     /// Exposed arcs on each sphere; an arc is listed with both its spheres.
     pub arcs: Vec<Vec<Arc>>,
-    /// Over those that are not swallowed.
+    /// Over those that are not swallowed, and over those that are exposed.
     tree: Tree,
+    shown: Tree,
 }
 
 impl<'a> Union<'a> {
@@ -63,54 +65,50 @@ impl<'a> Union<'a> {
                 false
             });
         };
-        let mut caps: Vec<Vec<Cap>> = filled("caps", n, Vec::new())?;
-        let mut bytes = tree.bytes() + (n * 2 * size_of::<Vec<Cap>>()) as u64;
+        let mut caps: Vec<(Vec<Cap>, bool)> = filled("caps", n, (Vec::new(), false))?;
+        let mut bytes = 2 * tree.bytes() + (n * 2 * size_of::<(Vec<Cap>, bool)>()) as u64;
+        // On each thread, all caps of a sphere and what is left of them.
+        bytes += (run.pool().threads() * 4 * n * size_of::<Cap>()) as u64;
         for (g, group) in caps.chunks_mut(GROUP * CHUNK).enumerate() {
             run.check(0.0, "measuring the surface")?;
             let first = g * GROUP * CHUNK;
-            // Counted first, so that none is made beyond the limit.
-            let counts = run.pool().map(group.len().div_ceil(CHUNK), |c| {
-                let mut count = 0u64;
-                for i in c * CHUNK..group.len().min((c + 1) * CHUNK) {
-                    if !swallowed[first + i] {
-                        neighbours(first + i, &mut |_| count += 1);
+            run.pool().chunks_mut(group, CHUNK, |c, lists| {
+                let mut matter = Matter::default();
+                for (k, (list, hidden)) in lists.iter_mut().enumerate() {
+                    let i = first + c * CHUNK + k;
+                    if !swallowed[i] {
+                        matter.begin();
+                        neighbours(i, &mut |cap| matter.add(cap));
+                        (*list, *hidden) = matter.take();
                     }
                 }
-                count
             });
-            bytes += counts.iter().sum::<u64>() * size_of::<Cap>() as u64;
+            bytes += group.iter().map(|l| (l.0.capacity() * size_of::<Cap>()) as u64).sum::<u64>();
             if bytes > limit {
                 return Err(Error::MemoryLimit(format!(
                     "the places where {n} spheres meet may take more than {bytes} bytes; {limit} \
                      are left of the limit"
                 )));
             }
-            run.pool().chunks_mut(group, CHUNK, |c, lists| {
-                for (k, list) in lists.iter_mut().enumerate() {
-                    let i = first + c * CHUNK + k;
-                    if !swallowed[i] {
-                        neighbours(i, &mut |cap| list.push(cap));
-                        list.sort_by(|x, y| x.cos.total_cmp(&y.cos).then(x.by.cmp(&y.by)));
-                        thin_out(list);
-                    }
-                }
-            });
         }
-        let found = each(n, run, |i| arcs_of(spheres, &caps, i))?;
+        let (caps, hidden): (Vec<Vec<Cap>>, Vec<bool>) = caps.into_iter().unzip();
+        let found = each(n, run, |i| arcs_of(spheres, &caps, &hidden, i))?;
         let mut arcs: Vec<Vec<Arc>> = filled("arcs", n, Vec::new())?;
         for (i, j, arc) in found.into_iter().flatten() {
             arcs[i as usize].push(arc);
             arcs[j as usize].push(arc);
         }
-        Ok(Union { spheres, swallowed, caps, arcs, tree })
+        let free = |i: usize| !swallowed[i] && (caps[i].is_empty() || !arcs[i].is_empty());
+        let shown = Tree::new(spheres, free)?;
+        Ok(Union { spheres, swallowed, caps, hidden, arcs, tree, shown })
     }
 
     /// Bytes that it holds.
     pub(super) fn bytes(&self) -> u64 {
         let caps: usize = self.caps.iter().map(|c| c.capacity() * size_of::<Cap>()).sum();
         let arcs: usize = self.arcs.iter().map(|a| a.capacity() * size_of::<Arc>()).sum();
-        let lists = self.spheres.len() * (2 * size_of::<Vec<Cap>>() + 1);
-        (caps + arcs + lists) as u64 + self.tree.bytes()
+        let lists = self.spheres.len() * (2 * size_of::<Vec<Cap>>() + 2);
+        (caps + arcs + lists) as u64 + self.tree.bytes() + self.shown.bytes()
     }
 
     /// Whether `test` holds for a cap of sphere `i` that may hold the direction `d`.
@@ -125,22 +123,27 @@ impl<'a> Union<'a> {
         })
     }
 
+    /// Whether sphere `i` is known to be wholly hidden.
+    fn never(&self, i: usize) -> bool {
+        self.swallowed[i] || self.hidden[i]
+    }
+
     /// Whether the point of sphere `i` in direction `d` is in no other sphere.
     pub(super) fn exposed(&self, i: usize, d: &Vec3) -> bool {
-        !self.swallowed[i] && !self.any_cap(i, d, |c| d.dot(&c.axis) > c.cos)
+        !self.never(i) && !self.any_cap(i, d, |c| d.dot(&c.axis) > c.cos)
     }
 
     /// Whether one other sphere hides all points of sphere `i` whose direction is within the
     /// angle of cosine `cos` (at most 90°) from `d`.
     pub(super) fn hides(&self, i: usize, d: &Vec3, cos: f64) -> bool {
-        self.swallowed[i] || self.any_cap(i, d, |c| c.holds(d, cos, 0.0))
+        self.never(i) || self.any_cap(i, d, |c| c.holds(d, cos, 0.0))
     }
 
     /// Exposed area of sphere `i`: exact in each of [`SLICES`] slices of equal area, whose axis
     /// is of no meaning.
     pub(super) fn area(&self, i: usize) -> f64 {
         let r = self.spheres[i].radius;
-        if self.swallowed[i] {
+        if self.never(i) {
             return 0.0;
         }
         if self.caps[i].is_empty() {
@@ -184,12 +187,19 @@ impl<'a> Union<'a> {
     /// away from a centre, or on an arc where two spheres meet: the nearest sphere surfaces
     /// first, up to the first that is no nearer than what was found.
     pub(super) fn nearest(&self, p: &Vec3) -> (Vec3, f64) {
+        let (point, distance, _) = self.nearest_of(p);
+        (point, distance)
+    }
+
+    /// The same, and the sphere on which it lies, where that is not on an arc.
+    fn nearest_of(&self, p: &Vec3) -> (Vec3, f64, Option<usize>) {
         let mut best = (*p, f64::MAX);
+        let mut on = None;
         let away = |i: u32| {
             let s = &self.spheres[i as usize];
             ((p - s.center).norm() - s.radius).abs()
         };
-        self.tree.nearest_first(p, away, |i, e| {
+        self.shown.nearest_first(p, away, |i, e| {
             let s = &self.spheres[i as usize];
             let w = p - s.center;
             let length = w.norm();
@@ -197,15 +207,55 @@ impl<'a> Union<'a> {
             if self.exposed(i as usize, &d) {
                 if e < best.1 {
                     best = (s.center + d * s.radius, e);
+                    on = Some(i as usize);
                 }
             } else {
+                let before = best.1;
                 for arc in &self.arcs[i as usize] {
                     arc.nearer(p, &mut best);
+                }
+                if best.1 < before {
+                    on = None;
                 }
             }
             best.1
         });
-        best
+        (best.0, best.1, on)
+    }
+
+    /// How far the middle of a triangle is from the union's surface, and a distance that none of
+    /// its points exceeds.
+    pub(super) fn reach(&self, t: &[Vec3; 3]) -> (f64, f64) {
+        let c = (t[0] + t[1] + t[2]) / 3.0;
+        let (x, distance, on) = self.nearest_of(&c);
+        let wide = t.iter().map(|v| (v - c).norm()).fold(0.0, f64::max);
+        let farthest = t.iter().map(|v| (v - x).norm()).fold(0.0, f64::max);
+        let mut bound = farthest.min(distance + wide);
+        // Straight above or below a part of a sphere that is all exposed, the distance is that
+        // from the sphere: to the second order of the triangle's size.
+        if let Some(i) = on {
+            let s = &self.spheres[i];
+            let middle = (c - s.center).normalize();
+            let ways = t.map(|v| v - s.center);
+            let along = ways.map(|w| w.dot(&middle));
+            let cos = ways.iter().zip(along).map(|(w, a)| a / w.norm()).fold(1.0, f64::min);
+            if cos > 0.5 && !self.any_cap_beside(i, &middle, cos) {
+                let over = ways.iter().map(|w| w.norm()).fold(0.0, f64::max) - s.radius;
+                let under = s.radius - along.into_iter().fold(f64::MAX, f64::min);
+                bound = bound.min(over.max(under).max(distance));
+            }
+        }
+        (distance, bound)
+    }
+
+    /// Whether something hides a point of sphere `i` in a direction within the angle of cosine
+    /// `cos` from `d`, as far as caps one by one tell.
+    fn any_cap_beside(&self, i: usize, d: &Vec3, cos: f64) -> bool {
+        let sin = (1.0 - cos * cos).max(0.0).sqrt();
+        self.caps[i].iter().any(|c| {
+            let x = d.dot(&c.axis).clamp(-1.0, 1.0);
+            x >= cos || x * cos + (1.0 - x * x).sqrt() * sin > c.cos - 1e-12
+        })
     }
 }
 
@@ -213,7 +263,7 @@ impl Cap {
     /// Whether the cap holds all directions within the angle of cosine `cos` from `d`, and some
     /// more in cosine: the angle to its middle and that angle are together less than its own,
     /// and less than 180°.
-    fn holds(&self, d: &Vec3, cos: f64, more: f64) -> bool {
+    pub(super) fn holds(&self, d: &Vec3, cos: f64, more: f64) -> bool {
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
         let x = d.dot(&self.axis).clamp(-1.0, 1.0);
         x > -cos && x * cos - (1.0 - x * x).sqrt() * sin > self.cos + more
@@ -230,20 +280,6 @@ fn cap(a: &Sphere, b: &Sphere, by: u32) -> Option<Cap> {
     let d = d2.sqrt();
     let cos = (d + (a.radius - b.radius) / d * (a.radius + b.radius)) / (2.0 * a.radius);
     Some(Cap { axis: w / d, cos, by })
-}
-
-/// Takes out caps that lie in one of the most hiding, which come first.
-fn thin_out(caps: &mut Vec<Cap>) {
-    let mut kept = 0;
-    for k in 0..caps.len() {
-        let c = caps[k];
-        if !caps[..kept.min(GREAT)].iter().any(|great| great.holds(&c.axis, c.cos, 1e-12)) {
-            caps[kept] = c;
-            kept += 1;
-        }
-    }
-    caps.truncate(kept);
-    caps.shrink_to_fit();
 }
 
 /// `f(0), f(1), …, f(n−1)`, with looks at the caller's cancel between.

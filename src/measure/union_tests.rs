@@ -177,3 +177,31 @@ fn piles_beyond_the_limit_are_refused() {
     let e = Union::new(&spheres, 1 << 16, &Run::serial()).err().unwrap();
     assert!(matches!(e, Error::MemoryLimit(_)) && e.to_string().contains("65536"), "{e}");
 }
+
+/// No point of a triangle is farther than the bound says, and of a small one above an exposed part
+/// the bound is close.
+#[test]
+fn triangles_are_no_farther_than_their_bound() {
+    let spheres = scattered(30, 0.5);
+    let union = Union::new(&spheres, u64::MAX, &Run::serial()).unwrap();
+    let mut close = 0;
+    for k in 0..600 {
+        let i = k % spheres.len();
+        let d = direction(k, 600);
+        let p = spheres[i].center + d * (spheres[i].radius * 1.02);
+        let size = if k % 2 == 0 { 0.02 } else { 0.1 };
+        let corner = |j: usize| p + direction(5 * k + j, 3000 + 7 * j) * size;
+        let t = [corner(0), corner(1), corner(2)].map(|v| v + d.cross(&v) * size);
+        let (distance, bound) = union.reach(&t);
+        let wide = t.iter().map(|v| (v - (t[0] + t[1] + t[2]) / 3.0).norm()).fold(0.0, f64::max);
+        close += usize::from(wide > 0.0 && bound - distance < 0.3 * wide);
+        for a in 0..=8 {
+            for b in 0..=8 - a {
+                let [x, y] = [a, b].map(|m| m as f64 / 8.0);
+                let q = t[0] + (t[1] - t[0]) * x + (t[2] - t[0]) * y;
+                assert!(union.nearest(&q).1 <= bound + 1e-12, "{k}: {a} {b}");
+            }
+        }
+    }
+    assert!(close > 35, "{close}");
+}

@@ -1,6 +1,7 @@
 //! What a sphere's exposed surface says about where the sphere should go: the normal equations of
 //! a Gauss–Newton step with Huber's loss on the signed distance.
 
+use super::among::{self, Hiders, among};
 use super::field::Field;
 use crate::generate::ball::Ball;
 use wide::f32x8;
@@ -25,6 +26,9 @@ impl Weights {
     }
 }
 
+/// Of more neighbours, those that hid most before are asked first.
+const FEW: usize = 64;
+
 /// Directions that a neighbour hides: d · axis > cos.
 #[derive(Debug, Clone, Copy)]
 struct Cap {
@@ -47,6 +51,7 @@ pub(crate) struct Normal {
 pub(crate) struct Scratch {
     caps: Vec<Cap>,
     open: [Vec<f32>; 3],
+    among: among::Buffers,
 }
 
 /// What all spheres of an iteration have in common.
@@ -67,11 +72,29 @@ impl Sampler<'_> {
         others: impl Iterator<Item = &'b Ball>,
         scratch: &mut Scratch,
     ) -> Normal {
-        let Scratch { caps, open } = scratch;
+        let Scratch { caps, open, .. } = scratch;
         if !caps_of(ball, others, caps) {
             return Normal::default();
         }
         let exposed = exposed(self.directions, caps, open);
+        self.sum(ball, open, exposed)
+    }
+
+    /// The same for ball `i` of `balls` among others by their numbers, which may be very many.
+    pub(crate) fn normal_among(
+        &self,
+        (i, balls): (u32, &[Ball]),
+        others: [&[u32]; 2],
+        hiders: &mut Hiders,
+        scratch: &mut Scratch,
+    ) -> Normal {
+        let ball = &balls[i as usize];
+        if others[0].len() + others[1].len() <= FEW {
+            let others = others.into_iter().flatten().map(|&j| &balls[j as usize]);
+            return self.normal(ball, others, scratch);
+        }
+        let Scratch { open, among: buffers, .. } = scratch;
+        let exposed = among(ball, balls, others, self.directions, hiders, buffers, open);
         self.sum(ball, open, exposed)
     }
 
@@ -175,7 +198,7 @@ pub(crate) fn outward<'b>(
     directions: &[[f32x8; 3]],
     scratch: &mut Scratch,
 ) -> ([f32; 3], f32) {
-    let Scratch { caps, open } = scratch;
+    let Scratch { caps, open, .. } = scratch;
     if !caps_of(ball, others, caps) {
         return ([0.0; 3], 0.0);
     }

@@ -157,3 +157,35 @@ fn pulls_are_the_slopes_of_volumes() {
         }
     }
 }
+
+#[test]
+fn among_many_balls_the_same_directions_are_exposed() {
+    let body = &bodies()[0];
+    let field = Field::new(body.solid.grid(), &body.distance, &Pool::serial()).unwrap();
+    let (directions, mut turned) = (Directions::new(96), Vec::new());
+    let mut random = Random::new(8, 8);
+    let mut balls = clump(body, 400, 3);
+    let (all, mut scratch) = ((0..400).collect::<Vec<u32>>(), Scratch::default());
+    let mut hiders = vec![Hiders::default(); balls.len()];
+    let mut exposed = 0;
+    for _ in 0..4 {
+        directions.turned(&random.rotation(), &mut turned);
+        let weights = Weights::at(0.1, 1.0);
+        let sampler = Sampler { field: &field, directions: &turned, weights, width: 0.01 };
+        for i in 0..balls.len() {
+            let others: Vec<u32> = all.iter().copied().filter(|&j| j as usize != i).collect();
+            let (some, rest) = others.split_at(300);
+            let by_all = others.iter().map(|&j| &balls[j as usize]);
+            let slow = sampler.normal(&balls[i], by_all, &mut scratch);
+            let lists = [some, rest];
+            let fast =
+                sampler.normal_among((i as u32, &balls), lists, &mut hiders[i], &mut scratch);
+            assert_eq!(slow, fast, "{i}");
+            exposed += slow.exposed;
+        }
+        for ball in &mut balls {
+            ball.center[0] += random.between(-0.01, 0.01) as f32;
+        }
+    }
+    assert!(exposed > 1000);
+}

@@ -1,6 +1,7 @@
 //! What a union of balls has in common with a target, counted again for a few balls at a time: what
 //! the methods that move balls read.
 
+pub(crate) mod among;
 pub(crate) mod between;
 pub(crate) mod chords;
 pub(crate) mod cover;

@@ -29,8 +29,17 @@ struct Cells {
 }
 
 impl Near {
-    /// The lists of the balls `of` among all `balls`.
+    /// The lists of the balls `of` among all `balls`, ascending.
     pub(crate) fn make(&mut self, balls: &[Ball], of: &[u32], slack: f32) {
+        self.unsorted(balls, of, slack);
+        for k in 0..of.len() {
+            let list = self.starts[k] as usize..self.starts[k + 1] as usize;
+            self.lists[list].sort_unstable();
+        }
+    }
+
+    /// The same in any order.
+    pub(crate) fn unsorted(&mut self, balls: &[Ball], of: &[u32], slack: f32) {
         self.starts.clear();
         self.lists.clear();
         self.starts.push(0);
@@ -49,7 +58,6 @@ impl Near {
         }
         self.cells.sort(balls, slack);
         for &i in of {
-            let first = self.lists.len();
             let ball = &balls[i as usize];
             let Cells { low, inverse, dims, starts, members, seen } = &mut self.cells;
             let cells = Cells::over(low, *inverse, dims, ball, slack);
@@ -69,8 +77,6 @@ impl Near {
                     }
                 }
             }
-            // As by comparing all with all.
-            self.lists[first..].sort_unstable();
             self.starts.push(self.lists.len() as u32);
         }
     }

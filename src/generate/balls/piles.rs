@@ -111,6 +111,12 @@ impl Piles {
         Ok(Piles { places: filled("chords of columns", n, Place::default())?, links: Vec::new() })
     }
 
+    /// Gives back what chords took.
+    pub(crate) fn clear(&mut self) {
+        self.places.fill(Place::default());
+        self.links = Vec::new();
+    }
+
     /// Bytes that it holds.
     pub(crate) fn bytes(&self) -> u64 {
         let places = self.places.len() * size_of::<Place>();

@@ -124,6 +124,8 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         }
         search.batch()?;
     }
+    // No more moves.
+    search.state.keep_books(false);
     if watch.at(0.9) && plan.polish[1] > 0 {
         search.polish(plan.polish)?;
     }

@@ -5,6 +5,7 @@
 use super::limits::Limits;
 use super::symmetry::Orbits;
 use crate::generate::ball::Ball;
+use crate::generate::balls::among::Hiders;
 use crate::generate::balls::directions::Directions;
 use crate::generate::balls::drawn::Drawn;
 use crate::generate::balls::exposed::{Normal, Sampler, Scratch, Weights};
@@ -23,8 +24,10 @@ const MOMENTUM: f32 = 0.6;
 const DAMPING: f64 = 0.003;
 /// Balls worked on together when threads share them.
 const CHUNK: usize = 16;
-/// Of the mean radius: how far balls may move before lists are made anew.
+/// Of the mean radius: how far balls may move before lists are made anew. One in so many may be
+/// farther off: those are looked at with all balls.
 const SLACK: f32 = 0.3;
+const LOOSE: usize = 64;
 
 /// How many iterations, and Huber's width at the first and the last.
 #[derive(Debug, Clone, Copy)]
@@ -63,7 +66,12 @@ pub(super) struct Refiner {
     turned: Vec<[f32x8; 3]>,
     /// Change of centre and radius of each ball in the last iteration.
     speed: Vec<[f32; 4]>,
-    step: Vec<[f32; 5]>,
+    step: Vec<([f32; 5], Hiders)>,
+    /// How far each ball, with its images, may have moved since lists were made, and those that
+    /// are not bound by the lists any more.
+    path: Vec<f32>,
+    loose: Vec<u32>,
+    all: Vec<u32>,
     /// Exposed area at the last iteration.
     pub area: f64,
 }
@@ -82,24 +90,33 @@ impl Refiner {
         pool: Option<&Pool>,
         go: &mut dyn FnMut() -> bool,
     ) {
-        let Refiner { near, scratch, drawn, turned, speed, step, area } = self;
+        let Refiner { near, scratch, drawn, turned, speed, step, path, loose, all, area } = self;
         speed.clear();
         speed.resize(of.len(), [0.0; 4]);
         step.clear();
-        step.resize(of.len(), [0.0; 5]);
+        step.resize(of.len(), ([0.0; 5], Hiders::default()));
+        all.clear();
+        all.extend(0..balls.len() as u32);
         let sum: f64 = of.iter().map(|&i| f64::from(balls[i as usize].radius)).sum();
         let slack = SLACK * (sum / of.len().max(1) as f64) as f32;
         if let Some(pull) = &task.pull {
             drawn.begin(pull, balls, of, task.orbits.balls(of));
         }
-        let mut moved = f32::MAX;
+        // What points draw goes by the lists.
+        let bound = if task.pull.is_some() { 0 } else { of.len() / LOOSE };
+        let (mut anew, mut moved) = (true, 0.0);
         let shrink = schedule.to / schedule.from;
         for k in 0..schedule.iterations {
             let done = k as f32 / (schedule.iterations.max(2) - 1) as f32;
             let width = schedule.from * shrink.powf(done);
-            let anew = moved >= 0.5 * slack;
             if anew {
-                near.make(balls, of, slack);
+                match task.pull {
+                    Some(_) => near.make(balls, of, slack),
+                    None => near.unsorted(balls, of, slack),
+                }
+                path.clear();
+                path.resize(of.len(), 0.0);
+                loose.clear();
                 moved = 0.0;
             }
             task.directions.turned(&random.rotation(), turned);
@@ -108,37 +125,44 @@ impl Refiner {
             }
             let sampler =
                 Sampler { field: task.field, directions: turned, weights: task.weights, width };
-            let one = |k: usize, scratch: &mut Scratch| {
-                let others = near.of(k).iter().map(|&j| &balls[j as usize]);
+            let one = |k: usize, (step, hiders): &mut ([f32; 5], Hiders), scratch: &mut Scratch| {
                 let ball = &balls[of[k] as usize];
-                let mut normal = sampler.normal(ball, others, scratch);
+                let free = path[k] >= 0.5 * slack;
+                let among = if free {
+                    [&all[..of[k] as usize], &all[of[k] as usize + 1..]]
+                } else {
+                    [near.of(k), &loose[..]]
+                };
+                let mut normal = sampler.normal_among((of[k], balls), among, hiders, scratch);
                 if let Some(pull) = &task.pull {
                     let sphere = 4.0 * std::f64::consts::PI * f64::from(ball.radius).powi(2);
                     let area = sphere / task.directions.len() as f64;
                     drawn.add(pull, k, width, area, &mut normal);
                 }
                 let solve = |n: &Normal| solve(n, DAMPING * task.directions.len() as f64);
-                let step = if task.limits.none() {
+                let found = if task.limits.none() {
                     solve(&normal)
                 } else {
                     task.limits.step(task.field, ball, &mut normal, solve)
                 };
                 let [x, y, z, r] =
-                    step.map(|x| ((STEP * x) as f32).clamp(-2.0 * width, 2.0 * width));
+                    found.map(|x| ((STEP * x) as f32).clamp(-2.0 * width, 2.0 * width));
                 let area = ball.radius * ball.radius * normal.exposed as f32;
-                [x, y, z, r, area * task.orbits.size(of[k]) as f32]
+                *step = [x, y, z, r, area * task.orbits.size(of[k]) as f32];
             };
             match pool {
                 Some(pool) => pool.chunks_mut(step, CHUNK, |c, steps| {
                     let mut scratch = Scratch::default();
                     for (k, step) in steps.iter_mut().enumerate() {
-                        *step = one(c * CHUNK + k, &mut scratch);
+                        one(c * CHUNK + k, step, &mut scratch);
                     }
                 }),
-                None => step.iter_mut().enumerate().for_each(|(k, s)| *s = one(k, scratch)),
+                None => step.iter_mut().enumerate().for_each(|(k, s)| one(k, s, scratch)),
             }
+            loose.clear();
             let mut most = 0.0f32;
-            for ((&i, speed), step) in of.iter().zip(speed.iter_mut()).zip(step.iter()) {
+            let steps = step.iter().zip(path.iter_mut());
+            for ((&i, speed), ((step, _), path)) in of.iter().zip(speed.iter_mut()).zip(steps) {
                 let ball = &mut balls[i as usize];
                 for (speed, step) in speed.iter_mut().zip(step) {
                     *speed = MOMENTUM * *speed + step;
@@ -161,11 +185,17 @@ impl Refiner {
                     speed[3] += ball.radius - free.radius;
                 }
                 let [x, y, z, r] = *speed;
-                most = most.max((x * x + y * y + z * z).sqrt() + r.abs());
+                let by = (x * x + y * y + z * z).sqrt() + r.abs();
+                most = most.max(by);
+                *path += by;
+                if *path >= 0.5 * slack {
+                    loose.extend(task.orbits.balls(&[i]));
+                }
             }
             task.orbits.follow(of, balls);
             moved += most;
-            let sum: f64 = step.iter().map(|s| f64::from(s[4])).sum();
+            anew = moved >= 0.5 * slack && (task.pull.is_some() || loose.len() > bound);
+            let sum: f64 = step.iter().map(|s| f64::from(s.0[4])).sum();
             *area = 4.0 * std::f64::consts::PI * sum / task.directions.len() as f64;
             if !go() {
                 break;

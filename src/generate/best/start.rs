@@ -76,7 +76,7 @@ impl<'a> Start<'a> {
             }
         }
         let State { balls, orbits, width, .. } = drafts.swap_remove(chosen(&drafts).unwrap_or(0));
-        let mut state = State::new(*ground, balls, orbits, plan.moves > 0, smooth, look)?;
+        let mut state = State::new(*ground, balls, orbits, smooth, look)?;
         state.width = width;
         let directions = Directions::new(plan.directions);
         let iterations = plan.iterations - plan.iterations / 2;
@@ -115,7 +115,7 @@ impl<'a> Start<'a> {
         let schedule = Schedule { iterations: first, from: wide, to: wide / 6.0 };
         let task = ground.task(&directions, Weights::at(0.0, ground.overshoot), &orbits, None);
         refiner.refine(&task, &schedule, &mut balls, &leads, random, pool, go);
-        let mut state = State::new(*ground, balls, orbits, plan.moves > 0, smooth, look)?;
+        let mut state = State::new(*ground, balls, orbits, smooth, look)?;
         state.measure_width(refiner.area);
         if go() {
             let iterations = plan.iterations - first;
@@ -143,6 +143,7 @@ impl<'a> Start<'a> {
         let mut balls = state.balls.clone();
         refiner.refine(&task, &schedule, &mut balls, &leads, random, pool, go);
         state.balls = balls;
+        state.keep_books(self.plan.moves > 0);
         state.renew(look)?;
         state.measure_width(refiner.area);
         Ok(())

@@ -79,12 +79,11 @@ pub(super) struct State<'a> {
 }
 
 impl<'a> State<'a> {
-    /// `moves`: whether balls will be moved one by one.
+    /// The books that moves need are not kept yet.
     pub(super) fn new(
         ground: Ground<'a>,
         balls: Vec<Ball>,
         orbits: Orbits<'a>,
-        moves: bool,
         smooth: Option<Smooth>,
         look: &mut Look,
     ) -> Result<State<'a>> {
@@ -101,7 +100,7 @@ impl<'a> State<'a> {
             alone: filled("what balls are worth", n, Lengths::default())?,
             tried: filled("moves of balls", n, 0)?,
             rows: reserve("rows of columns", ground.dexels.dims[1])?,
-            books: moves || ground.connected,
+            books: false,
             parts: 1,
             near: Near::default(),
             version: 0,
@@ -226,6 +225,12 @@ impl<'a> State<'a> {
         -cost * self.more()
     }
 
+    /// Keeps the books that moves of single balls need from the next [`State::renew`] on, or not.
+    /// To join parts takes them, too.
+    pub(super) fn keep_books(&mut self, moves: bool) {
+        self.books = moves || self.ground.connected;
+    }
+
     /// Counts everything anew from the balls.
     pub(super) fn renew(&mut self, look: &mut Look) -> Result<()> {
         let dexels = self.ground.dexels;
@@ -237,6 +242,7 @@ impl<'a> State<'a> {
             smooth.whole(dexels, &self.seen, &mut look.smooth);
         }
         if !self.books {
+            self.piles.clear();
             return Ok(());
         }
         self.alone.fill(Lengths::default());
