@@ -1,4 +1,5 @@
 use crate::error::{Error, Result, collected, figure};
+use crate::mass::Body;
 use crate::math::{Sphere, Vec3};
 use nalgebra::Matrix3;
 
@@ -29,6 +30,23 @@ pub struct Record {
 }
 
 impl Record {
+    /// The record of spheres in the caller's frame that stand for `body`, with a mass for each.
+    pub fn new(name: &str, spheres: &[Sphere], masses: &[f64], body: &Body) -> Result<Record> {
+        let record = Record {
+            name: name.into(),
+            spheres: body.to_body(spheres),
+            masses: collected("masses of a file", masses.iter().copied())?,
+            mass: body.mass,
+            volume: body.volume,
+            moments: body.principal.moments,
+            center: body.center,
+            axes: body.principal.axes,
+            quaternion: body.principal.quaternion,
+        };
+        record.check()?;
+        Ok(record)
+    }
+
     /// Refuses what no file could hold.
     pub fn check(&self) -> Result<()> {
         if let Some(bad) = self.name.chars().find(|c| c.is_control()) {

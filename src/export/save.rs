@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub fn save(files: &[File], path: &Path) -> Result<()> {
     let mut made: Vec<(PathBuf, PathBuf)> = Vec::new();
     let written = files.iter().try_for_each(|file| {
-        let target = place(path, file.place);
+        let target = file.place.of(path);
         let target = fs::canonicalize(&target).unwrap_or(target);
         let said = |e: std::io::Error| Error::Io(format!("{}: {e}", target.display()));
         if let (Place::Below(_), Some(folder)) = (file.place, target.parent()) {
@@ -40,11 +40,14 @@ pub fn save(files: &[File], path: &Path) -> Result<()> {
     renamed
 }
 
-fn place(path: &Path, place: Place) -> PathBuf {
-    match place {
-        Place::At => path.to_path_buf(),
-        Place::Beside(ending) => beside(path, ending),
-        Place::Below(name) => path.join(name),
+impl Place {
+    /// The path of the file, when the format is written to `path`.
+    pub fn of(self, path: &Path) -> PathBuf {
+        match self {
+            Place::At => path.to_path_buf(),
+            Place::Beside(ending) => beside(path, ending),
+            Place::Below(name) => path.join(name),
+        }
     }
 }
 

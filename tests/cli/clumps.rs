@@ -78,7 +78,13 @@ fn the_keys_of_json_are_these() {
     };
     assert_eq!(keys(&["--json"]), expected(figures.into()));
     let masses = ["--json", "--density", "2"];
-    assert_eq!(keys(&masses), expected(format!("{figures} density mass centre inertia")));
+    assert_eq!(
+        keys(&masses),
+        expected(format!(
+            "{figures} density mass centre inertia principal_moments masses mass_status \
+             mass_residuals mass_spread min_mass largest_min_mass binding"
+        ))
+    );
     // The spheres go where they are asked to go, once.
     let summary = keys(&["--json", "-o", text(&file)]);
     assert_eq!(summary, expected(figures.replace("spheres ", "")));

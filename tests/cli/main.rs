@@ -5,6 +5,7 @@
 mod clumps;
 mod compare;
 mod failures;
+mod masses;
 mod options;
 mod pictures;
 mod shapes;

@@ -7,6 +7,7 @@ mod files;
 mod lammps;
 mod liggghts;
 mod rotation;
+mod wild;
 mod yade;
 
 use std::path::{Path, PathBuf};

@@ -3,14 +3,17 @@
 use crate::covering::Covering;
 use crate::demands::Demands;
 use crate::fail::{About, Done, Fail};
+use crate::figures;
 use crate::input::parse::{finite, not_negative, positive, whole};
 use crate::input::{self, Fineness, Reading};
 use crate::method::{EffortArg, MethodArg};
 use crate::progress::Bar;
+use crate::weighing::{self, Weighing};
 use crate::write::{self, ClumpFormat};
 use clap::ValueEnum;
 use morula::error::count;
 use morula::generate::{GenerateOptions, Method, OVERLAP, generate};
+use morula::mass::{Body, Masses};
 use morula::measure::QualityOptions;
 use morula::{Clump, Run, Shape, Solid};
 use serde_json::{Value, json};
@@ -37,7 +40,8 @@ pub struct Args {
     /// Frame of the spheres: the input's, or the body's (centre of mass, principal axes)
     #[arg(long, value_enum, default_value_t = Frame::Input)]
     frame: Frame,
-    /// Density, mass per cubed length unit: adds mass, centre and inertia to the figures
+    /// Density, mass per cubed length unit: adds mass, centre and inertia to the figures, and a mass
+    /// to each sphere
     #[arg(long, value_parser = positive)]
     density: Option<f64>,
     /// Quality to measure: overlap (D, coverage, overshoot), full (also the surface), none
@@ -55,6 +59,12 @@ pub struct Args {
     /// No progress bar, no summary, no notes
     #[arg(short, long)]
     quiet: bool,
+    #[command(flatten)]
+    weighing: Weighing,
+    /// Whose mass, centre and inertia the clump has: the shape's (mesh or voxels), or those of
+    /// the union of its spheres
+    #[arg(long, value_enum, default_value_t = TargetArg::Mesh, help_heading = "Masses")]
+    target: TargetArg,
     #[command(flatten)]
     making: Making,
     #[command(flatten)]
@@ -113,6 +123,13 @@ enum Wanted {
     None,
 }
 
+/// Whose mass a clump has.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum TargetArg {
+    Mesh,
+    Union,
+}
+
 /// The frame of spheres in a file.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub enum Frame {
@@ -164,6 +181,12 @@ pub fn run(args: &Args) -> Done {
             "--columns has no effect here: --quality none measures none".into(),
         ));
     }
+    if args.density.is_none() {
+        args.weighing.needs_density()?;
+        if args.target == TargetArg::Union {
+            return Err(Fail::Usage("--target union takes a --density".into()));
+        }
+    }
     let options = args.generate_options();
     // The library would take the progress bar for one who can cancel.
     if options.spheres == 0
@@ -193,14 +216,17 @@ pub fn run(args: &Args) -> Done {
         Frame::Input => clump.spheres.clone(),
         Frame::Body => solid.to_body(&clump.spheres),
     };
-    let figures = figures(args, &shape, &solid, &clump, start);
+    let weighed = args.weigh(&solid, &clump, &run)?;
+    let figures = figures(args, (&shape, &solid), &clump, weighed.as_ref(), start);
+    let masses = weighed.as_ref().and_then(|(_, m)| m.as_ref()).map_or(&[][..], |m| &m.masses);
+    let spheres = (&spheres[..], masses);
     if let Some(path) = output {
-        write::to(path, |out| write::clump(out, args.format_of(path), &spheres, &figures))?;
+        write::to(path, |out| write::clump(out, args.format_of(path), spheres, &figures))?;
     }
     if args.json {
         let format = ClumpFormat::Json;
         return write::to_stdout(|out| match output {
-            None => write::clump(out, format, &spheres, &figures),
+            None => write::clump(out, format, spheres, &figures),
             Some(_) => writeln!(out, "{figures}"),
         });
     }
@@ -217,6 +243,23 @@ impl Args {
     /// The format of the file at `path`.
     fn format_of(&self, path: &str) -> ClumpFormat {
         self.format.unwrap_or_else(|| ClumpFormat::of_name(path))
+    }
+
+    /// Mass, centre and inertia at the density, and the masses of the spheres.
+    fn weigh(
+        &self,
+        solid: &Solid,
+        clump: &Clump,
+        run: &Run,
+    ) -> Done<Option<(Body, Option<Masses>)>> {
+        let Some(density) = self.density else { return Ok(None) };
+        let body = match self.target {
+            TargetArg::Mesh => Body::of_solid(solid, density),
+            TargetArg::Union => Body::of_union(&clump.spheres, density, run),
+        };
+        let body = body.about(&self.input)?;
+        let masses = self.weighing.masses(&clump.spheres, &body, &self.input, run)?;
+        Ok(Some((body, masses)))
     }
 
     /// Whether anything is measured: plane contacts are asked for by their tolerances.
@@ -256,7 +299,13 @@ impl Args {
 }
 
 /// The keys of `--json`. What was not measured is null.
-fn figures(args: &Args, shape: &Shape, solid: &Solid, clump: &Clump, start: Instant) -> Value {
+fn figures(
+    args: &Args,
+    (shape, solid): (&Shape, &Solid),
+    clump: &Clump,
+    weighed: Option<&(Body, Option<Masses>)>,
+    start: Instant,
+) -> Value {
     let measured = clump.quality.as_ref();
     let q = measured.filter(|_| args.quality != Wanted::None);
     let surface = measured.filter(|_| args.quality == Wanted::Full);
@@ -268,22 +317,6 @@ fn figures(args: &Args, shape: &Shape, solid: &Solid, clump: &Clump, start: Inst
     let mut v = json!({
         "input": args.input,
         "n": clump.spheres.len(),
-        "D": q.map(|q| q.mismatch),
-        "eta": q.map(|q| q.eta),
-        "iou": q.map(|q| q.iou),
-        "coverage": q.map(|q| q.coverage),
-        "overshoot": q.map(|q| q.overshoot),
-        "error_bound": q.map(|q| q.error_bound),
-        "union_volume": q.map(|q| q.union_volume),
-        "volume_error": q.map(|q| q.volume_error),
-        "centroid_error": q.map(|q| q.centroid_error),
-        "moment_errors": q.map(|q| q.moment_errors),
-        "protrusion": surface.map(|q| q.protrusion),
-        "rms_distance": surface.map(|q| q.rms_distance),
-        "hausdorff": surface.map(|q| q.hausdorff),
-        "distance_bound": surface.map(|q| q.distance_bound),
-        "roughness": surface.map(|q| q.roughness),
-        "never_exposed": surface.map(|q| q.never_exposed),
         "plane_contacts": planes.map(|q| q.plane_contacts.clone()),
         "stopped": clump.stopped.name(),
         "note": clump.note,
@@ -300,21 +333,16 @@ fn figures(args: &Args, shape: &Shape, solid: &Solid, clump: &Clump, start: Inst
         },
         "peak_bytes": c.peak_bytes,
     });
-    if let (Some(density), Some(map)) = (args.density, v.as_object_mut()) {
-        let (centre, inertia) = match args.frame {
-            Frame::Input => (
-                [moments.centroid.x, moments.centroid.y, moments.centroid.z],
-                moments.inertia.to_array(),
-            ),
-            Frame::Body => {
-                let [a, b, c] = principal.moments;
-                ([0.0; 3], [a, b, c, 0.0, 0.0, 0.0])
-            }
-        };
-        map.insert("density".into(), density.into());
-        map.insert("mass".into(), (density * moments.volume).into());
-        map.insert("centre".into(), json!(centre));
-        map.insert("inertia".into(), json!(inertia.map(|i| density * i)));
+    if let Some(map) = v.as_object_mut() {
+        map.extend(figures::quality(q, surface));
+        map.extend(
+            weighed
+                .map(|(body, _)| weighing::body_keys(body, args.frame == Frame::Body))
+                .unwrap_or_default(),
+        );
+        map.extend(
+            weighed.and_then(|(_, masses)| masses.as_ref()).map(weighing::keys).unwrap_or_default(),
+        );
     }
     if let Some(map) = v.as_object_mut() {
         map.insert("seconds".into(), start.elapsed().as_secs_f64().into());

@@ -8,14 +8,19 @@ mod clump;
 mod compare;
 mod covering;
 mod demands;
+mod export;
 mod fail;
+mod figures;
+mod given;
 mod info;
 mod input;
 mod labels;
+mod measure;
 mod method;
 mod progress;
 mod sample;
 mod view;
+mod weighing;
 mod write;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -39,6 +44,10 @@ enum Command {
     Info(Box<info::Args>),
     /// Write a built-in analytic particle as a mesh
     Sample(sample::Args),
+    /// Measure a clump that a file holds, alone or against a target
+    Measure(Box<measure::Args>),
+    /// Write a clump as the files that a DEM code reads
+    Export(Box<export::Args>),
     /// Draw a clump beside its target
     View(Box<view::Args>),
     /// Make clumps of a shape by every method, side by side in a table and a picture
@@ -62,6 +71,8 @@ fn main() -> ExitCode {
         Command::Clump(args) => clump::run(args),
         Command::Info(args) => info::run(args),
         Command::Sample(args) => sample::run(args),
+        Command::Measure(args) => measure::run(args),
+        Command::Export(args) => export::run(args),
         Command::View(args) => view::run(args),
         Command::Compare(args) => compare::run(args),
     };

@@ -182,6 +182,23 @@ impl Reading {
         refuse("--labels", "a list of cells by label", &given)
     }
 
+    /// For a command without a target.
+    pub fn unread(&self) -> Done {
+        let given = [
+            ("--label", self.label.is_some()),
+            ("--threshold", self.threshold.is_some()),
+            ("--spacing", self.spacing.is_some()),
+            ("--origin", self.origin.is_some()),
+            ("--axes", self.axes.is_some()),
+            ("--raw", self.raw.is_some()),
+            ("--weld", self.weld.is_some()),
+            ("--segments", self.segments.is_some()),
+            ("--seed", self.seed.is_some()),
+            ("--length-unit", self.length_unit != 1.0),
+        ];
+        refuse("a clump", "read without a --target", &given)
+    }
+
     /// For commands that make no random choice.
     pub fn seed_is_of_stone(&self, input: &str) -> Done {
         let stone = input.split(',').next() == Some("sample:stone");
@@ -269,15 +286,23 @@ enum Along {
 }
 
 impl Fineness {
+    fn given(&self) -> [(&'static str, bool); 3] {
+        [
+            ("--cells", self.cells.is_some()),
+            ("--cells-along", self.cells_along.is_some()),
+            ("--cell-size", self.cell_size.is_some()),
+        ]
+    }
+
+    /// For a command without a target.
+    pub fn unread(&self) -> Done {
+        refuse("a clump", "read without a --target", &self.given())
+    }
+
     /// The solid of a shape, read from `input`, on this grid.
     pub fn solid(&self, shape: &Shape, input: &str, reading: &Reading, run: &Run) -> Done<Solid> {
         if let Body::Voxels(_) = *shape.body {
-            let given = [
-                ("--cells", self.cells.is_some()),
-                ("--cells-along", self.cells_along.is_some()),
-                ("--cell-size", self.cell_size.is_some()),
-            ];
-            refuse(input, "voxels, whose own cells are the grid", &given)?;
+            refuse(input, "voxels, whose own cells are the grid", &self.given())?;
         }
         let cells = self.cells.unwrap_or(64);
         let resolution = match (self.cell_size, self.cells_along.unwrap_or(Along::Longest)) {

@@ -14,6 +14,7 @@ pub mod surface;
 
 use crate::clump::{Frame, equivalent_diameter};
 use crate::fail::{About, Done, Fail};
+use crate::given;
 use crate::input::parse::{positive, whole};
 use crate::input::{self, Fineness, Reading};
 use crate::progress::Bar;
@@ -22,7 +23,7 @@ use buffer::Buffer;
 use camera::Camera;
 use canvas::{Align, Canvas, Rgb};
 use morula::measure::{Quality, QualityOptions, quality};
-use morula::{Run, Solid, Sphere, export};
+use morula::{Run, Solid, Sphere};
 use shade::Light;
 use std::path::Path;
 
@@ -74,31 +75,12 @@ pub fn run(args: &Args) -> Done {
     if extension.is_some_and(|e| !e.eq_ignore_ascii_case("png")) {
         return Err(Fail::Usage(format!("{} is no name for a PNG picture", args.output)));
     }
-    args.reading.seed_is_of_stone(&args.input)?;
     let bar = Bar::new("view", args.quiet);
     let run = bar.attach(Run::new(args.threads).about("")?);
-    let read = export::read::read(input::file(&args.clump)?).about(&args.clump)?;
-    let mut spheres = read.spheres;
-    let said = read.body_frame.map(|body| if body { Frame::Body } else { Frame::Input });
-    let frame = match (args.frame, said) {
-        (Some(flag), Some(said)) if flag != said => {
-            return Err(Fail::Usage(format!(
-                "{} says that its spheres are in the frame {}, --frame says otherwise",
-                args.clump,
-                said.name()
-            )));
-        }
-        (flag, said) => flag.or(said).unwrap_or(Frame::Input),
-    };
-    let shape = args.reading.shape(&args.input, &run)?;
-    let solid = args.fineness.solid(&shape, &args.input, &args.reading, &run)?;
-    if frame == Frame::Body {
-        let (frame, axes) = (solid.frame(), solid.principal().axes);
-        for s in &mut spheres {
-            let unit = axes * s.center / frame.scale + solid.unit_moments().centroid;
-            s.center = frame.to_input(&unit);
-        }
-    }
+    let (mut template, frame) = given::clump(&args.clump, args.frame)?;
+    let reading = (&args.reading, &args.fineness);
+    let (shape, solid) = given::target(&args.input, reading, (&mut template, frame), &run)?;
+    let spheres = template.spheres;
     let measured =
         quality(&solid, &spheres, &QualityOptions::default(), &run).about(&args.clump)?;
     let canvas = picture(args, &solid, &spheres, &measured, &run).about(&args.output)?;

@@ -12,7 +12,7 @@ use std::path::Path;
 /// A file format for clumps.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 pub enum ClumpFormat {
-    /// One sphere a line under the header x,y,z,r
+    /// One sphere a line under the header x,y,z,r, with a density x,y,z,r,mass
     Csv,
     /// One object with the spheres as [x, y, z, r] and the figures of the clump
     Json,
@@ -39,13 +39,13 @@ impl ClumpFormat {
 pub fn clump(
     out: &mut dyn Write,
     format: ClumpFormat,
-    spheres: &[Sphere],
+    (spheres, masses): (&[Sphere], &[f64]),
     figures: &serde_json::Value,
 ) -> std::io::Result<()> {
     match format {
-        ClumpFormat::Csv => out.write_all(export::csv(spheres, &[]).as_bytes()),
+        ClumpFormat::Csv => out.write_all(export::csv(spheres, masses).as_bytes()),
         ClumpFormat::Json => clump_json::write(out, spheres, figures),
-        ClumpFormat::Vtp => out.write_all(export::vtp(spheres, &[]).as_bytes()),
+        ClumpFormat::Vtp => out.write_all(export::vtp(spheres, masses).as_bytes()),
         ClumpFormat::Ply => {
             let bytes = export::ply(spheres, 3).map_err(std::io::Error::other)?;
             out.write_all(&bytes)
