@@ -12,6 +12,7 @@ use morula::mass::{
 use morula::math::Vec3;
 use morula::measure::{QualityOptions, quality};
 use morula::shape::primitive::Primitive;
+use morula::shape::read::FileOptions;
 use morula::shape::{ImportOptions, Layout, Shape};
 use morula::solid::{Resolution, SolidOptions};
 use morula::{Run, Solid, Sphere};
@@ -214,4 +215,67 @@ fn the_same_masses_come_out_for_any_number_of_threads() {
     let one = make(1);
     assert_eq!(one, make(2));
     assert_eq!(one, make(5));
+}
+
+#[test]
+fn body_frames_do_not_flip() {
+    let of = |m: &common::Arrays| {
+        let shape = Shape::from_mesh(&m.0, &m.1, &ImportOptions::default(), &Run::serial());
+        Body::of_solid(&of_shape(&shape.unwrap()), 1.0).unwrap().principal
+    };
+    // Equal moments: the axes are chosen, and do not depend on rounding.
+    let cube = of(&common::cube([0.3, -0.7, 11.0], 1.7));
+    assert_eq!(cube.quaternion, [1.0, 0.0, 0.0, 0.0]);
+    let ball = of(&common::sphere(24, 48, 1.3, [0.0; 3]));
+    let tall = of(&common::cuboid([-1.0, -1.0, -3.0], [1.0, 1.0, 3.0]));
+    // The least moment is about the long axis, which comes first.
+    assert_eq!(tall.axes.column(0), Vec3::z());
+    for m in [ball, tall] {
+        assert!((m.axes.determinant() - 1.0).abs() < 1e-14);
+        assert!(m.moments[0] <= m.moments[1] && m.moments[1] <= m.moments[2]);
+    }
+    for at in [[1e3, 0.0, 0.0], [0.1, 0.2, 0.3]] {
+        let there = of(&common::sphere(24, 48, 1.3, at)).quaternion;
+        assert!(there.iter().zip(ball.quaternion).all(|(a, b)| (a - b).abs() < 1e-9));
+    }
+    // A stone without symmetry, each vertex moved by a billionth of its size.
+    let stone = Primitive::from_name("stone").unwrap().mesh(48).unwrap();
+    let clean = of(&stone);
+    for seed in 0..4 {
+        let mut moved = stone.clone();
+        for (i, v) in moved.0.iter_mut().enumerate() {
+            let t = i as f64 + 0.1 * f64::from(seed);
+            *v = [0, 1, 2].map(|k| v[k] + 1e-9 * (t * 12.9898 + k as f64).sin());
+        }
+        let near = of(&moved);
+        assert!((near.axes - clean.axes).abs().max() < 1e-7);
+        for (a, b) in near.quaternion.iter().zip(clean.quaternion) {
+            assert!((a - b).abs() < 1e-7);
+        }
+    }
+}
+
+#[test]
+fn real_stones_have_their_masses() {
+    let Some(data) = common::data() else { return };
+    for name in ["stone_10", "stone_15", "stone_S02"] {
+        let path = data.join(format!("particles/stone/{name}.stl"));
+        let shape = Shape::from_file(&path, &FileOptions::default(), &Run::serial()).unwrap();
+        let solid = of_shape(&shape);
+        for n in [20, 50, 100] {
+            let spheres = clump(&solid, n);
+            let body = Body::of_solid(&solid, 2650.0).unwrap();
+            let m = correct(&spheres, &body, &MassOptions::default(), &Run::serial()).unwrap();
+            check(&spheres, &body, &m);
+            println!(
+                "{name} {n}: {} ε {:.1e} spread {:.2} bound {} largest m_min {:?}",
+                m.status.name(),
+                m.residuals.inertia,
+                m.spread,
+                m.binding.len(),
+                m.largest_m_min.map(|m| m / body.mass)
+            );
+            assert!(m.residuals.inertia < 0.05);
+        }
+    }
 }

@@ -4,6 +4,7 @@
 mod body;
 mod cone;
 mod correct;
+mod lattice;
 mod outside;
 mod pile;
 mod problem;

@@ -43,3 +43,46 @@ fn shares_add_up_to_the_union() {
         assert!((s * 5.0 / pair[0].volume() - 1.0).abs() < 1e-12);
     }
 }
+
+#[test]
+fn crowds_share_by_a_lattice_what_they_share_alone() {
+    // Two hundred balls of which each meets most others.
+    let mut spheres = scattered(200, 3.0);
+    spheres.iter_mut().for_each(|s| s.radius *= 3.0);
+    let middle = Vec3::new(0.5, 0.4, 0.3);
+    spheres.iter_mut().for_each(|s| s.center -= middle);
+    let pile = Pile::new(&spheres).unwrap();
+    let lattice = Lattice::new(&pile);
+    assert!(pile.spheres.iter().all(|s| lattice.resolves(s)));
+    let common = lattice.shares(&pile, &run()).unwrap();
+    let found = shares(&pile, &run()).unwrap();
+    let mut crowded = 0;
+    for (i, s) in pile.spheres.iter().enumerate() {
+        let mut near = Vec::new();
+        pile.neighbours(i, |_, o| {
+            let d = o.center - s.center;
+            near.push(([d.x, d.y, d.z], o.radius * o.radius));
+        });
+        let (alone, together) = (share(s, &near) / s.volume(), common[i] / s.volume());
+        assert!((alone - together).abs() < 0.01, "{alone} {together}");
+        crowded += usize::from(found[i] == common[i]);
+    }
+    assert!(crowded > 100, "{crowded}");
+    let sum: f64 = found.iter().sum();
+    assert!((sum / of_union(&spheres, 1.0).volume - 1.0).abs() < 3e-3);
+    // Mirror images have equal shares.
+    let image: Vec<_> = spheres
+        .iter()
+        .map(|s| Sphere::new(s.center.component_mul(&Vec3::new(-1.0, 1.0, -1.0)), s.radius))
+        .collect();
+    let image = Pile::new(&image).unwrap();
+    let other = shares(&image, &run()).unwrap();
+    let by_caller = |pile: &Pile, shares: &[f64]| {
+        let mut out = vec![0.0; shares.len()];
+        pile.order.iter().zip(shares).for_each(|(&i, s)| out[i as usize] = *s);
+        out
+    };
+    for (a, b) in by_caller(&pile, &found).iter().zip(by_caller(&image, &other)) {
+        assert!((a / b - 1.0).abs() < 1e-11, "{a} {b}");
+    }
+}

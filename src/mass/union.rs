@@ -18,6 +18,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 const CHUNK: usize = 16;
 /// Spheres between two looks at the caller's cancel.
 const GROUP: usize = 1024;
+/// Hidden angles of a circle before a first look whether they hide all of it.
+const LOOK: usize = 16;
 /// Directions that tell by how many times 2π an area is off.
 const LOOKS: usize = 128;
 /// Radii are changed by this share, each a little differently, so that no three circles meet in
@@ -82,8 +84,10 @@ pub fn union_moments(spheres: &[Sphere], run: &Run) -> Result<Moments> {
 pub(super) fn of_pile(pile: &Pile, run: &Run) -> Result<Moments> {
     let about = middle(&pile.spheres);
     let n = pile.spheres.len();
+    // A sphere alone meets nothing.
+    let share = if n > 1 { NUDGE } else { 0.0 };
     let nudged =
-        |i: usize, s: &Sphere| Sphere::new(s.center - about, s.radius * (1.0 + NUDGE * nudge(i)));
+        |i: usize, s: &Sphere| Sphere::new(s.center - about, s.radius * (1.0 + share * nudge(i)));
     let mut total = Integrals::default();
     for first in (0..n).step_by(GROUP) {
         run.check(0.0, "integrating over the union of the spheres")?;
@@ -249,6 +253,7 @@ impl Border {
         let e1 = axis.cross(&if axis.x.abs() < 0.6 { Vec3::x() } else { Vec3::y() }).normalize();
         let e2 = axis.cross(&e1);
         hidden.clear();
+        let mut looked = LOOK;
         for (j, o) in caps.iter().enumerate().filter(|(j, _)| *j != k) {
             let (x, y) = (sin * o.axis.dot(&e1), sin * o.axis.dot(&e2));
             let least = o.cos - cos * axis.dot(&o.axis);
@@ -261,28 +266,24 @@ impl Border {
                 let from = (y.atan2(x) - half).rem_euclid(TAU);
                 hidden.push(Hidden { from, to: from + 2.0 * half, by: j });
             }
+            // Few caps, the most hiding, mostly hide all: then the others need no look.
+            if hidden.len() == looked {
+                looked *= 2;
+                if gaps(hidden, |_, _| ()) == 0 {
+                    return;
+                }
+            }
         }
         if hidden.is_empty() {
             self.arc(cap, &e1, &e2, 0.0, TAU);
             return;
         }
-        hidden.sort_unstable_by(|p, q| p.from.total_cmp(&q.from).then(p.by.cmp(&q.by)));
-        // How far those that run over a full turn reach into the next.
-        let (mut end, mut by) = hidden
-            .iter()
-            .map(|h| (h.to - TAU, h.by))
-            .fold((f64::MIN, 0), |a, b| if b.0 > a.0 { b } else { a });
-        for h in hidden.iter() {
-            if h.from > end {
-                self.arc(cap, &e1, &e2, end, h.from);
-                for (phi, other) in [(end, by), (h.from, h.by)] {
-                    self.area -= 0.5 * turn(cap, &caps[other], &e1, &e2, phi);
-                }
+        gaps(hidden, |(from, begins), (to, ends)| {
+            self.arc(cap, &e1, &e2, from, to);
+            for (phi, by) in [(from, begins), (to, ends)] {
+                self.area -= 0.5 * turn(cap, &caps[by], &e1, &e2, phi);
             }
-            if h.to > end {
-                (end, by) = (h.to, h.by);
-            }
-        }
+        });
     }
 
     /// Adds an arc of the circle about a cap, from angle `from` to `to`.
@@ -316,6 +317,26 @@ struct Hidden {
     from: f64,
     to: f64,
     by: usize,
+}
+
+/// Calls `f` with the ends of what is not hidden of a circle, and the caps that end it there;
+/// returns how many such arcs there are.
+fn gaps(hidden: &mut [Hidden], mut f: impl FnMut((f64, usize), (f64, usize))) -> usize {
+    hidden.sort_unstable_by(|p, q| p.from.total_cmp(&q.from).then(p.by.cmp(&q.by)));
+    // How far those that run over a full turn reach into the next.
+    let over = hidden.iter().map(|h| (h.to - TAU, h.by));
+    let mut end = over.fold((f64::MIN, 0), |a, b| if b.0 > a.0 { b } else { a });
+    let mut count = 0;
+    for h in hidden.iter() {
+        if h.from > end.0 {
+            f(end, (h.from, h.by));
+            count += 1;
+        }
+        if h.to > end.0 {
+            end = (h.to, h.by);
+        }
+    }
+    count
 }
 
 /// The direction at angle `phi` of the circle about a cap, and the normal there, into the cap.
