@@ -13,6 +13,8 @@ use crate::math::Sphere;
 use crate::run::Run;
 use nalgebra::Matrix3;
 
+/// Spheres at most: the solver takes about a kilobyte for each.
+const MOST: usize = 1_000_000;
 /// Equations met to this are met.
 const EXACT: f64 = 1e-10;
 /// What is left of equations that are met to rounding.
@@ -125,7 +127,8 @@ pub struct Masses {
 ///
 /// Fails: no sphere; a sphere or bound that is not finite; a radius that is not above 0; a sphere
 /// over 1000 radii of gyration large or away; m_min < 0, m_max < m_min, n m_min > M, n m_max < M;
-/// [`Error::NoMasses`] where the centre of mass cannot be met; cancelled by the caller.
+/// more than a million spheres; [`Error::NoMasses`] where the centre of mass cannot be met;
+/// cancelled by the caller.
 pub fn correct(
     spheres: &[Sphere],
     body: &Body,
@@ -134,6 +137,11 @@ pub fn correct(
 ) -> Result<Masses> {
     check(spheres)?;
     let n = spheres.len();
+    if n > MOST {
+        return Err(Error::TooLarge(format!(
+            "{n} spheres are too many: masses are found for {MOST} at most"
+        )));
+    }
     let (m_min, m_max) = bounds(options, n, body.mass)?;
     let pile = Pile::new(&unitless(spheres, body)?)?;
     let mean = body.mass / n as f64;
