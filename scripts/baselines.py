@@ -90,9 +90,9 @@ ends at none, and spheres may reach out through it as far as its edges let them.
 Where parts of a surface cross each other, the inner walls limit the balls too.
 
 `ferellec-mcdowell` is poor at `example_mesh` and `example_voxels`, a heap of grown-together grains: it chooses
-by the surface that balls touch, and the large ones in the middle touch little of it. In voxels it is a third
-poorer again: balls inside have no room in the steps, and those at points on a step are too small. On an
-ellipsoid of 128 voxels it is as good as `uniform-grid` (D 0.112, 0.059, 0.046 against 0.125, 0.066, 0.044).
+by the surface that balls touch, and the large ones in the middle touch little of it. In voxels, where balls
+have no room in the steps, it is poorer again. On an ellipsoid of 128 voxels it is as good as
+`uniform-grid` (D 0.112, 0.058, 0.046 against 0.125, 0.066, 0.044).
 
 Spheres at the vertices of the Voronoi diagram of surface points (Hubbard 1996) are not offered: they are
 the balls of `ferellec-mcdowell` up to the spacing of the points, and would take a Delaunay triangulation

@@ -15,6 +15,7 @@ use crate::clump::{Clump, Stopped};
 use crate::error::{Result, filled, push};
 use crate::math::{Sphere, Vec3};
 use crate::run::Run;
+use crate::shape::Body;
 use crate::solid::Solid;
 
 /// How near counts as near: over the equivalent diameter, first and least; halved in between.
@@ -27,6 +28,8 @@ const BEYOND: f64 = 0.1;
 /// The same along the slope of the distance over so many cells, where the surface has steps: its
 /// normals then say little of the body. Taken where the cosine to the normal is less.
 const STEPPED: f64 = 0.9;
+/// … and in voxels also by so many cells: at a point on a step, other steps are as far within.
+const STEPS_APART: f64 = 3.0;
 const OVER: f64 = 4.0;
 const ALIKE: f64 = 0.95;
 /// Most steps of shrinking.
@@ -116,11 +119,17 @@ impl<'a> Tangents<'a> {
         Ok(Tangents { ground, distance, most })
     }
 
-    /// The greatest balls at `p` along the normal and, where it differs, the slope.
-    fn at(&self, p: &Vec3, n: &Vec3) -> [Option<Sphere>; 2] {
-        let cell = self.ground.cell;
-        let slope = self.slope(p, OVER * cell).filter(|s| s.dot(n) < ALIKE);
-        [self.touching(p, n, BEYOND), slope.and_then(|s| self.touching(p, &s, STEPPED))]
+    /// The greatest balls at `p` along the normal and, where it differs, the slope; in voxels
+    /// one more along the slope that minds no steps.
+    fn at(&self, p: &Vec3, n: &Vec3) -> [Option<Sphere>; 3] {
+        let slope = self.slope(p, OVER * self.ground.cell);
+        let other = slope.filter(|s| s.dot(n) < ALIKE);
+        let stepped = slope.filter(|_| matches!(self.ground.solid.body(), Body::Voxels(_)));
+        [
+            self.touching(p, n, BEYOND),
+            other.and_then(|s| self.touching(p, &s, STEPPED)),
+            stepped.and_then(|s| self.touching(p, &s, STEPS_APART)),
+        ]
     }
 
     /// Direction in which the distance grows.
