@@ -58,6 +58,9 @@ impl Program {
             tol_gap_abs: 1e-10,
             tol_gap_rel: 1e-10,
             tol_feas: 1e-10,
+            // At its default what is left of the dual equations, times the masses of a thousand
+            // spheres, was a millionth of the objective.
+            static_regularization_constant: 1e-10,
             ..DefaultSettings::default()
         };
         let mut solver = DefaultSolver::new(&p, &self.linear, &a, &right, &cones, settings)
