@@ -3,6 +3,7 @@
 
 mod detect;
 mod group;
+mod kinds;
 mod orbits;
 mod replant;
 mod seeds;

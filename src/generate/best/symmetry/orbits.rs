@@ -1,7 +1,8 @@
 //! Which balls of a clump are images of which. The first of an orbit leads: it alone is refined,
 //! on the line or plane of its kind, and the others are its images.
 
-use super::group::{Group, Kind, Matrix};
+use super::group::{Group, Matrix};
+use super::kinds::Kind;
 use crate::generate::ball::Ball;
 use crate::math::{Sphere, UnitFrame, Vec3};
 

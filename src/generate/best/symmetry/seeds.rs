@@ -3,7 +3,7 @@
 use super::super::effort::Plan;
 use super::super::seeds::GROWN;
 use super::super::state::Ground;
-use super::group::Kind;
+use super::kinds::Kind;
 use super::orbits::{Orbit, Orbits, Sites};
 use crate::error::{Result, filled, push, reserve};
 use crate::generate::ball::Ball;
