@@ -185,3 +185,62 @@ fn a_power_of_two_scales_every_byte() {
         }
     }
 }
+
+/// A cancel between two numbers of spheres gives the last clump.
+#[test]
+fn a_cancel_between_numbers_of_spheres_gives_the_last_clump() {
+    let solid = solid("stone", 24);
+    let ask =
+        GenerateOptions { method: Method::Best, mismatch: 0.05, ..GenerateOptions::default() };
+    let mut ends = 0;
+    for most in [150, 200, 250, 300, 350, 400, 450, 500] {
+        let mut asked = 0;
+        let run = Run::serial().with_progress(Box::new(|_| {
+            asked += 1;
+            asked > most
+        }));
+        let clump = generate(&solid, &ask, &run).unwrap();
+        assert!(!clump.spheres.is_empty());
+        ends += usize::from(clump.stopped == Stopped::Cancelled);
+    }
+    assert!(ends > 3, "{ends}");
+}
+
+/// What many spheres take grows no faster than they do, is counted, and is refused beforehand
+/// where it is too much.
+#[test]
+fn many_spheres_take_what_is_counted_and_no_more_than_allowed() {
+    let shape = Primitive::from_name("ellipsoid").unwrap();
+    let run = Run::serial();
+    let shape = Shape::from_primitive(&shape, 32, &ImportOptions::default(), &run).unwrap();
+    let with = |memory_limit: u64| {
+        let options = SolidOptions {
+            memory_limit,
+            resolution: morula::solid::Resolution::CellsLongest(40),
+            ..SolidOptions::default()
+        };
+        Solid::new(&shape, &options, &Run::serial()).unwrap()
+    };
+    let solid = with(1 << 30);
+    let taken = |spheres: usize, effort: Effort| {
+        let run = Run::serial();
+        let options =
+            GenerateOptions { method: Method::Best, spheres, effort, ..GenerateOptions::default() };
+        generate(&solid, &options, &run).unwrap();
+        run.counters().peak_bytes
+    };
+    let (few, many) = (taken(300, Effort::Normal), taken(1200, Effort::Normal));
+    assert!(many < 5 * few, "{few} {many}");
+    let options =
+        GenerateOptions { method: Method::Best, spheres: 1200, ..GenerateOptions::default() };
+    let e = generate(&with(many / 2), &options, &Run::serial()).err().unwrap();
+    assert!(matches!(e, Error::MemoryLimit(_)), "{e}");
+    assert!(e.to_string().contains("may take"), "{e}");
+    let options = GenerateOptions { method: Method::Inscribed, effort: Effort::Draft, ..options };
+    let run = Run::serial();
+    generate(&solid, &options, &run).unwrap();
+    let limit = run.counters().peak_bytes / 10 * 9;
+    let e = generate(&with(limit), &options, &Run::serial()).err().unwrap();
+    assert!(matches!(e, Error::MemoryLimit(_)), "{e}");
+    assert!(e.to_string().contains("1200 spheres of the method inscribed"), "{e}");
+}

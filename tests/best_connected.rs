@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use morula::clump::Stopped;
 use morula::generate::{BestOptions, Effort, GenerateOptions, Method, generate};
 use morula::math::Sphere;
 use morula::measure::{QualityOptions, quality};
@@ -158,4 +159,28 @@ fn symmetric_clumps_are_joined_as_well() {
             assert!(clump.spheres.iter().any(image), "{s:?}");
         }
     }
+}
+
+/// Draft effort makes no moves: what is asked more often than without the demand is asked while
+/// parts are joined.
+#[test]
+fn a_cancel_is_heard_while_parts_are_joined() {
+    let solid = apart(4);
+    let asked = |connected: bool, most: usize| {
+        let mut asked = 0;
+        let run = Run::serial().with_progress(Box::new(|_| {
+            asked += 1;
+            asked > most
+        }));
+        let clump = generate(&solid, &ask(40, Effort::Draft, connected), &run).unwrap();
+        drop(run);
+        (asked, clump)
+    };
+    let (without, _) = asked(false, usize::MAX);
+    let (with, clump) = asked(true, usize::MAX);
+    assert_eq!((parts(&clump.spheres), clump.stopped), (1, Stopped::Spheres));
+    assert!(with > without + 3, "{with} {without}");
+    let (_, clump) = asked(true, without + 1);
+    assert_eq!((clump.spheres.len(), clump.stopped), (40, Stopped::Cancelled));
+    assert!(parts(&clump.spheres) > 1);
 }

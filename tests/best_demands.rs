@@ -5,6 +5,7 @@
 mod common;
 
 use common::{Arrays, solid_of_mesh};
+use morula::clump::Stopped;
 use morula::generate::{BestOptions, Effort, GenerateOptions, HalfSpace, Method, generate};
 use morula::measure::{Quality, QualityOptions, quality};
 use morula::shape::primitive::Primitive;
@@ -321,4 +322,21 @@ fn a_greatest_protrusion_is_used_to_the_full() {
         let d = overlap(&solid, &clump).mismatch;
         assert!(d < 1.05 * full, "{name}: {d} {full}");
     }
+}
+
+/// A cancel that comes while the volume is made equal, after all moves, is heard.
+#[test]
+fn a_cancel_is_heard_while_the_volume_is_made_equal() {
+    let solid = solid("stone");
+    let best = BestOptions { equal_volume: true, ..BestOptions::default() };
+    let options = ask(20, Effort::Normal, best);
+    let mut asked = 0;
+    let run = Run::serial().with_progress(Box::new(|f| {
+        asked += usize::from(f >= 0.95);
+        f >= 0.95 && asked > 3
+    }));
+    let clump = generate(&solid, &options, &run).unwrap();
+    assert_eq!((clump.spheres.len(), clump.stopped), (20, Stopped::Cancelled));
+    drop(run);
+    assert!((4..12).contains(&asked), "{asked}");
 }

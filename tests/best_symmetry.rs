@@ -319,3 +319,56 @@ fn symmetric_clumps_hang_together_where_that_is_asked_for() {
     }
     assert!(rest.is_empty(), "{rest:?}");
 }
+
+/// Both bodies have mirrors across the axes, which `auto` finds.
+fn demanding(n: usize, symmetry: Symmetry, with: BestOptions) -> GenerateOptions {
+    let best = BestOptions { symmetry, ..with };
+    GenerateOptions { best, ..ask(n, Effort::Normal, Symmetry::None) }
+}
+
+#[test]
+fn symmetric_clumps_have_the_volume_of_the_target_where_that_is_asked_for() {
+    let fine = QualityOptions { columns: 1024, surface: false, ..QualityOptions::default() };
+    for (name, n, symmetry) in [
+        ("box", 24, Symmetry::Auto),
+        ("ellipsoid", 40, Symmetry::Auto),
+        ("ellipsoid", 31, planes(&THREE)),
+    ] {
+        let solid = solid(name, 32);
+        let center = solid.moments().centroid;
+        let equal = BestOptions { equal_volume: true, ..BestOptions::default() };
+        let clump = generate(&solid, &demanding(n, symmetry, equal), &Run::serial()).unwrap();
+        assert_eq!(clump.spheres.len(), n, "{name}: {}", clump.note);
+        for normal in THREE {
+            let off = off(&clump.spheres, &center, &Vec3::from(normal));
+            assert!(off < 1e-14, "{name} {normal:?}: {off}");
+        }
+        let q = quality(&solid, &clump.spheres, &fine, &Run::serial()).unwrap();
+        assert!(q.volume_error.abs() <= 1e-4, "{name}: {} {}", q.volume_error, clump.note);
+    }
+}
+
+#[test]
+fn symmetric_clumps_come_closer_to_the_surface_where_that_is_asked_for() {
+    for (name, normals, symmetry, n) in [
+        ("cone", vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], None, 24),
+        ("box", THREE.to_vec(), Some(Symmetry::Auto), 24),
+    ] {
+        let solid = solid(name, 32);
+        let center = solid.moments().centroid;
+        let symmetry = symmetry.unwrap_or(planes(&normals));
+        let distance = |smoothness: f64| {
+            let with = BestOptions { smoothness, ..BestOptions::default() };
+            let options = demanding(n, symmetry.clone(), with);
+            let clump = generate(&solid, &options, &Run::serial()).unwrap();
+            assert_eq!(clump.spheres.len(), n, "{name}: {}", clump.note);
+            for normal in &normals {
+                assert!(off(&clump.spheres, &center, &Vec3::from(*normal)) < 1e-14);
+            }
+            let q = quality(&solid, &clump.spheres, &QualityOptions::default(), &Run::serial());
+            q.unwrap().rms_distance
+        };
+        let (free, smooth) = (distance(0.0), distance(2.0));
+        assert!(smooth < 0.995 * free, "{name}: {smooth} {free}");
+    }
+}

@@ -8,7 +8,7 @@ mod pieces;
 mod planes;
 mod reach;
 mod surface;
-mod tree;
+pub(crate) mod tree;
 mod union;
 
 use crate::error::{Error, Result, figure, reserve};

@@ -12,7 +12,7 @@ const WIDER: f64 = 1e-12;
 
 /// Spheres halved at the median, along the axis on which they spread most or by radius: a few
 /// great ones among many small would widen every box.
-pub(super) struct Tree {
+pub(crate) struct Tree {
     order: Vec<u32>,
     /// Depth first: the left child of a node is the next one.
     nodes: Vec<Node>,
@@ -35,7 +35,7 @@ fn key(s: &Sphere, k: usize) -> f64 {
 
 impl Tree {
     /// Over those of the spheres that are `wanted`.
-    pub(super) fn new(spheres: &[Sphere], wanted: impl Fn(usize) -> bool) -> Result<Tree> {
+    pub(crate) fn new(spheres: &[Sphere], wanted: impl Fn(usize) -> bool) -> Result<Tree> {
         let mut order = reserve("the tree of spheres", spheres.len())?;
         order.extend((0..spheres.len() as u32).filter(|&i| wanted(i as usize)));
         // Halves of more than LEAF hold more than LEAF / 2 each.
@@ -78,13 +78,13 @@ impl Tree {
     }
 
     /// Bytes that it holds.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         (self.order.capacity() * 4 + self.nodes.capacity() * size_of::<Node>()) as u64
     }
 
     /// Whether `found` holds for one of the spheres in boxes (lower and upper corner) that
     /// `enter` lets in.
-    pub(super) fn any(
+    pub(crate) fn any(
         &self,
         enter: impl Fn(&Vec3, &Vec3) -> bool,
         mut found: impl FnMut(u32) -> bool,
@@ -101,14 +101,14 @@ impl Tree {
     }
 
     /// The same for spheres about a point.
-    pub(super) fn any_about(&self, p: &Vec3, found: impl FnMut(u32) -> bool) -> bool {
+    pub(crate) fn any_about(&self, p: &Vec3, found: impl FnMut(u32) -> bool) -> bool {
         let holds = |lo: &Vec3, hi: &Vec3| (0..3).all(|a| lo[a] <= p[a] && p[a] <= hi[a]);
         self.any(holds, found)
     }
 
     /// Visits the spheres by rise of `away`, which is not negative and no less than the distance
     /// of `p` from the sphere's box, as long as it is less than what the last visit gave back.
-    pub(super) fn nearest_first(
+    pub(crate) fn nearest_first(
         &self,
         p: &Vec3,
         away: impl Fn(u32) -> f64,

@@ -75,6 +75,11 @@ impl Between {
         Ok(out)
     }
 
+    /// Bytes that it holds.
+    pub(crate) fn bytes(&self) -> u64 {
+        (8 * self.values.len() + 4 * self.columns.len()) as u64
+    }
+
     /// ∫ f from the first node to `t` in column `c`.
     #[inline(always)]
     fn up_to(&self, c: usize, t: f32) -> f32 {

@@ -16,6 +16,12 @@ pub(crate) struct Row {
 }
 
 impl Row {
+    /// Bytes that it holds.
+    pub(crate) fn bytes(&self) -> u64 {
+        let numbers = self.counts.capacity() + self.touching.capacity();
+        (4 * numbers + 8 * self.joined.capacity() + 12 * self.single.capacity()) as u64
+    }
+
     /// Gets ready for columns `from..to` of row `b`.
     fn begin(&mut self, b: usize, [from, to]: [usize; 2], balls: &[Seen], order: &[u32]) {
         self.touching.clear();

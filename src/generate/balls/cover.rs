@@ -213,6 +213,13 @@ impl Cover {
 }
 
 impl Look {
+    /// Bytes that it holds.
+    pub(crate) fn bytes(&self) -> u64 {
+        let own = 8 * self.fresh.capacity() + 4 * self.order.capacity();
+        let region = 12 * self.region.runs.capacity() + 8 * self.region.bits.capacity();
+        (own + region) as u64 + self.row.bytes() + self.exchange.bytes()
+    }
+
     /// What the region's columns would hold if the balls `of` were at the places that `seen` has
     /// for them, less what they hold now.
     pub(crate) fn exchange(

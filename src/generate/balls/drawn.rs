@@ -2,9 +2,12 @@
 
 use super::exposed::Normal;
 use super::near::Near;
+use super::nearest;
 use super::smooth::{Nearest, Pull};
 use crate::generate::ball::Ball;
 
+/// Of more balls that move, the nearest to all points are found together.
+const MANY: usize = 128;
 /// Of the mean radius: how much nearer to balls that move a point may come.
 const SLACK: f32 = 0.5;
 
@@ -31,6 +34,11 @@ pub(crate) struct Drawn {
     /// Of each ball its place among those that lead and move, or what else it does.
     slots: Vec<u32>,
     sums: Vec<Normal>,
+    /// Of many balls: the points, the balls, and what is found.
+    points: Vec<[f32; 3]>,
+    places: Vec<([f32; 3], f32)>,
+    best: Vec<Nearest>,
+    search: nearest::Nearest,
 }
 
 /// No ball, or one that stays; and one that follows its image.
@@ -38,6 +46,16 @@ const NONE: u32 = u32::MAX;
 const FOLLOWS: u32 = u32::MAX - 1;
 
 impl Drawn {
+    /// Bytes that it holds.
+    pub(crate) fn bytes(&self) -> u64 {
+        (16 * self.local.capacity()
+            + 4 * (self.last.capacity() + self.moving.capacity() + self.slots.capacity())
+            + size_of::<Normal>() * self.sums.capacity()
+            + 12 * self.points.capacity()
+            + 16 * self.places.capacity()
+            + 8 * self.best.capacity()) as u64
+    }
+
     /// Finds the points for the balls `of` that are about to move; `all`: with their images.
     pub(crate) fn begin(
         &mut self,
@@ -79,17 +97,40 @@ impl Drawn {
         last.resize(local.len(), NONE);
     }
 
+    /// The nearest to each point of the balls that move.
+    fn find(&mut self, balls: &[Ball]) {
+        let Drawn { local, moving, points, places, best, search, .. } = self;
+        points.clear();
+        points.extend(local.iter().map(|p| p.0));
+        places.clear();
+        let place = |&j: &u32| (balls[j as usize].center, balls[j as usize].radius);
+        places.extend(moving.iter().map(place));
+        best.clear();
+        best.resize(points.len(), (f32::MAX, NONE));
+        search.each(points, places, |k, some| {
+            for j in some.iter().map(|&m| moving[m as usize]) {
+                closer(&points[k], &balls[j as usize], j, &mut best[k]);
+            }
+        });
+    }
+
     /// Sums up what the points add for each ball. `near`: which balls meet each that moves;
     /// `anew`: those lists have changed.
     pub(crate) fn draw(&mut self, balls: &[Ball], of: &[u32], near: &Near, anew: bool) {
-        let Drawn { local, last, moving, slots, sums } = self;
+        let many = self.moving.len() > MANY;
+        if many {
+            self.find(balls);
+        }
+        let Drawn { local, last, moving, slots, sums, best: found, .. } = self;
         sums.clear();
         sums.resize(of.len(), Normal::default());
-        for ((p, rest), last) in local.iter().zip(last) {
+        for (at, ((p, rest), last)) in local.iter().zip(last).enumerate() {
             let mut best = (f32::MAX, NONE);
             // The lists are of those that lead.
             let slot = if *last == NONE { NONE } else { slots[*last as usize] };
-            if slot >= FOLLOWS || anew {
+            if many {
+                best = found[at];
+            } else if slot >= FOLLOWS || anew {
                 moving.iter().for_each(|&j| closer(p, &balls[j as usize], j, &mut best));
             } else {
                 closer(p, &balls[*last as usize], *last, &mut best);

@@ -12,6 +12,7 @@ pub(crate) mod exposed;
 pub(crate) mod field;
 pub(crate) mod medial;
 pub(crate) mod near;
+pub(crate) mod nearest;
 pub(crate) mod piles;
 pub(crate) mod random;
 pub(crate) mod smooth;

@@ -5,12 +5,18 @@ use crate::generate::ball::Ball;
 
 /// Up to so many balls, all are compared with all.
 const FEW: usize = 96;
+/// Of more balls than this, no list is longer than this part of them: where more meet, it is as
+/// good to look at all.
+const MANY: usize = 512;
+const PART: usize = 4;
 
 /// For each of some balls, those that meet it or may soon.
 #[derive(Debug, Default, Clone)]
 pub(crate) struct Near {
     starts: Vec<u32>,
     lists: Vec<u32>,
+    /// The balls without a list, as too many meet them.
+    all: Vec<bool>,
     /// Balls looked at while making the lists.
     pub looks: u64,
     cells: Cells,
@@ -31,37 +37,51 @@ struct Cells {
 impl Near {
     /// The lists of the balls `of` among all `balls`, ascending.
     pub(crate) fn make(&mut self, balls: &[Ball], of: &[u32], slack: f32) {
-        self.unsorted(balls, of, slack);
+        self.list(balls, of, slack, usize::MAX);
         for k in 0..of.len() {
             let list = self.starts[k] as usize..self.starts[k + 1] as usize;
             self.lists[list].sort_unstable();
         }
     }
 
-    /// The same in any order.
-    pub(crate) fn unsorted(&mut self, balls: &[Ball], of: &[u32], slack: f32) {
+    /// The same in any order, and no list where very many balls meet one.
+    pub(crate) fn short(&mut self, balls: &[Ball], of: &[u32], slack: f32) {
+        let most = if balls.len() > MANY { balls.len() / PART } else { usize::MAX };
+        self.list(balls, of, slack, most);
+    }
+
+    /// Lists of at most so many.
+    fn list(&mut self, balls: &[Ball], of: &[u32], slack: f32, most: usize) {
         self.starts.clear();
         self.lists.clear();
+        self.all.clear();
+        self.all.resize(of.len(), false);
         self.starts.push(0);
         if balls.len() <= FEW || of.len() * 8 < balls.len() {
             self.looks += (of.len() * balls.len()) as u64;
-            for &i in of {
+            for (&i, all) in of.iter().zip(&mut self.all) {
                 let ball = &balls[i as usize];
+                let first = self.lists.len();
                 for (j, other) in (0u32..).zip(balls) {
                     if j != i && ball.meets(other, slack) {
                         self.lists.push(j);
                     }
+                }
+                *all = self.lists.len() - first > most;
+                if *all {
+                    self.lists.truncate(first);
                 }
                 self.starts.push(self.lists.len() as u32);
             }
             return;
         }
         self.cells.sort(balls, slack);
-        for &i in of {
+        for (&i, all) in of.iter().zip(&mut self.all) {
             let ball = &balls[i as usize];
+            let first = self.lists.len();
             let Cells { low, inverse, dims, starts, members, seen } = &mut self.cells;
             let cells = Cells::over(low, *inverse, dims, ball, slack);
-            for z in cells[2][0]..=cells[2][1] {
+            'cells: for z in cells[2][0]..=cells[2][1] {
                 for y in cells[1][0]..=cells[1][1] {
                     let row = dims[0] * (y + dims[1] * z);
                     for c in row + cells[0][0]..=row + cells[0][1] {
@@ -74,11 +94,31 @@ impl Near {
                                 self.lists.push(j);
                             }
                         }
+                        if self.lists.len() - first > most {
+                            *all = true;
+                            break 'cells;
+                        }
                     }
                 }
             }
+            if *all {
+                self.lists.truncate(first);
+            }
             self.starts.push(self.lists.len() as u32);
         }
+    }
+
+    /// Whether so many balls meet the ball that came `k`th that it has no list.
+    #[inline(always)]
+    pub(crate) fn all(&self, k: usize) -> bool {
+        self.all[k]
+    }
+
+    /// Bytes that it holds.
+    pub(crate) fn bytes(&self) -> u64 {
+        let Cells { starts, members, seen, .. } = &self.cells;
+        let own = self.starts.capacity() + self.lists.capacity();
+        4 * (own + starts.capacity() + members.capacity() + seen.capacity()) as u64
     }
 
     /// The list of the ball that came `k`th.
@@ -182,6 +222,29 @@ mod tests {
                     .collect();
                 assert_eq!(near.of(i), all, "{i} of {n}");
             }
+        }
+    }
+
+    #[test]
+    fn where_very_many_meet_a_ball_it_has_no_list() {
+        let n = 1000;
+        let mut balls = balls(n, 4);
+        balls.iter_mut().step_by(3).for_each(|b| b.radius = 0.7);
+        let of: Vec<u32> = (0..n as u32).collect();
+        for of in [of.as_slice(), &of[..20]] {
+            let mut near = Near::default();
+            near.short(&balls, of, 0.01);
+            let (mut with, mut without) = (0, 0);
+            for (k, &i) in of.iter().enumerate() {
+                let meets = |&j: &u32| j != i && balls[i as usize].meets(&balls[j as usize], 0.01);
+                let all: Vec<u32> = (0..n as u32).filter(meets).collect();
+                let mut list = near.of(k).to_vec();
+                list.sort_unstable();
+                assert_eq!(near.all(k), all.len() > n / PART);
+                assert_eq!(list, if near.all(k) { Vec::new() } else { all });
+                if near.all(k) { without += 1 } else { with += 1 }
+            }
+            assert!(with > 0 && without > 0, "{with} {without}");
         }
     }
 

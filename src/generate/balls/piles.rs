@@ -68,6 +68,15 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
+    /// Bytes that it holds.
+    pub(crate) fn bytes(&self) -> u64 {
+        let balls = 4 * (self.numbers.capacity() + self.order.capacity())
+            + size_of::<Seen>() * self.seen.capacity()
+            + self.marked.capacity();
+        let chords = size_of::<Chord>() * self.anew.capacity() + 8 * self.fresh.capacity();
+        (balls + chords) as u64 + self.row.bytes()
+    }
+
     /// The balls `of` of `n` are at the places that `seen` has for them.
     pub(crate) fn set(&mut self, of: &[u32], seen: &[Seen]) {
         for &j in &self.numbers {
@@ -105,6 +114,15 @@ impl Link {
 }
 
 impl Piles {
+    /// Bytes that it may take for so many balls, of which all meet in all of `met` columns of so
+    /// many: as many chords lie within fewer than [`DEEP`] others as of chords at random.
+    pub(crate) fn expected(columns: usize, met: usize, balls: usize) -> u64 {
+        let (n, deep) = (balls as f64, DEEP as f64);
+        let each = if balls > FEW { deep * (1.0 + (n / deep).ln()) } else { n };
+        let links = 1.6 * met as f64 * each * size_of::<Link>() as f64;
+        (columns * size_of::<Place>()) as u64 + links as u64
+    }
+
     /// Of no ball.
     pub(crate) fn new(dexels: &Dexels) -> Result<Piles> {
         let n = dexels.dims[0] * dexels.dims[1];
@@ -171,7 +189,12 @@ impl Piles {
             // To the end: not often, as there is room for some more, and all are made anew now and
             // then.
             (place.start, place.room) = (self.links.len() as u32, room(count));
-            self.links.resize(self.links.len() + place.room as usize, Link::default());
+            let end = self.links.len() + place.room as usize;
+            if end > self.links.capacity() {
+                // Not twice as much, as it would be else.
+                self.links.reserve_exact(end / 8 + place.room as usize);
+            }
+            self.links.resize(end, Link::default());
         }
         place.count = count;
         place.deep = deep;

@@ -10,6 +10,7 @@ use super::between::{Between, Fresh};
 use super::cover::Region;
 use super::dexels::{Dexels, Seen};
 use super::field::Field;
+use super::nearest;
 use super::random::Random;
 use crate::error::{Result, reserve};
 use crate::generate::ball::Ball;
@@ -108,6 +109,7 @@ pub(crate) struct Buffers {
     marked: Vec<bool>,
     fresh: Vec<(u32, Nearest)>,
     columns: Fresh,
+    search: nearest::Nearest,
 }
 
 impl Smooth {
@@ -144,18 +146,23 @@ impl Smooth {
         Ok(Smooth { weight, points, seen, nearest, sum: 0.0, between, area, scale, step })
     }
 
+    /// Bytes that it holds.
+    pub(crate) fn bytes(&self) -> u64 {
+        32 * self.points.len() as u64 + self.between.bytes()
+    }
+
     /// All points and columns anew.
     pub(crate) fn whole(&mut self, dexels: &Dexels, balls: &[Seen], buffers: &mut Buffers) {
         self.between.whole(dexels, balls, &mut buffers.columns);
         let Smooth { seen, nearest, sum, .. } = self;
         nearest.clear();
-        nearest.extend(seen.iter().map(|p| {
-            let mut best = (f32::MAX, 0);
-            for (j, s) in (0u32..).zip(balls) {
-                nearer(p, s, j, &mut best);
+        nearest.resize(seen.len(), (f32::MAX, 0));
+        let places: Vec<([f32; 3], f32)> = balls.iter().map(|s| ([s.u, s.v, s.t], s.r)).collect();
+        buffers.search.each(seen, &places, |k, some| {
+            for &j in some {
+                nearer(&seen[k], &balls[j as usize], j, &mut nearest[k]);
             }
-            best
-        }));
+        });
         *sum = nearest.iter().map(|n| square(n.0)).sum();
     }
 
@@ -170,7 +177,7 @@ impl Smooth {
         balls: &[Seen],
         buffers: &mut Buffers,
     ) -> [f64; 2] {
-        let Buffers { marked, fresh, columns } = buffers;
+        let Buffers { marked, fresh, columns, .. } = buffers;
         let between = self.between.change(dexels, region, balls, columns);
         marked.clear();
         marked.resize(balls.len(), false);

@@ -3,11 +3,13 @@
 
 use super::state::State;
 use super::watch::Watch;
-use crate::error::Result;
+use crate::error::{Result, reserve};
 use crate::generate::ball::Ball;
 use crate::generate::balls::cover::Look;
+use crate::generate::balls::dexels::Seen;
 use crate::generate::balls::near::Near;
-use crate::math::Sphere;
+use crate::math::{Sphere, Vec3};
+use crate::measure::tree::Tree;
 
 /// How deep an overlap holds, as a part of the smaller radius: rounding, in a solver's own numbers
 /// as well, must not part spheres.
@@ -33,15 +35,29 @@ pub(super) fn parts(balls: &[Ball], near: &mut Near) -> (Vec<u32>, usize) {
 }
 
 /// As [`parts`], of the spheres that the caller gets.
-pub(super) fn count(spheres: &[Sphere]) -> usize {
+pub(super) fn count(spheres: &[Sphere]) -> Result<usize> {
     let holds = |a: &Sphere, b: &Sphere| {
         let depth = 0.5 * f64::from(HOLDS) * a.radius.min(b.radius);
         (a.center - b.center).norm() < a.radius + b.radius - depth
     };
+    let tree = Tree::new(spheres, |_| true)?;
     let beside = |k: usize| {
-        (0..spheres.len() as u32).filter(move |&j| holds(&spheres[k], &spheres[j as usize]))
+        let s = &spheres[k];
+        let r = Vec3::repeat(s.radius);
+        let (lo, hi) = (s.center - r, s.center + r);
+        let mut found = Vec::new();
+        tree.any(
+            |l, h| (0..3).all(|a| l[a] <= hi[a] && lo[a] <= h[a]),
+            |j| {
+                if holds(s, &spheres[j as usize]) {
+                    found.push(j);
+                }
+                false
+            },
+        );
+        found.into_iter()
     };
-    group(spheres.len(), beside).1
+    Ok(group(spheres.len(), beside).1)
 }
 
 /// Groups by pairs that hang together.
@@ -68,50 +84,101 @@ fn group<I: Iterator<Item = u32>>(n: usize, beside: impl Fn(usize) -> I) -> (Vec
     (of, found)
 }
 
+/// How many parts there are with the balls `new` in the place of those with the numbers `of`.
+/// `near`: the lists of the balls as they are, of which `part` are the parts.
+fn parts_after(balls: &[Ball], near: &Near, (of, new): (&[u32], &[Ball])) -> usize {
+    let mut slots = vec![u32::MAX; balls.len()];
+    for (k, &j) in (0u32..).zip(of) {
+        slots[j as usize] = k;
+    }
+    let now = |j: u32| match slots[j as usize] {
+        u32::MAX => &balls[j as usize],
+        k => &new[k as usize],
+    };
+    // Who hangs together with a changed ball.
+    let mut beside: Vec<Vec<u32>> = vec![Vec::new(); of.len()];
+    let mut also: Vec<Vec<u32>> = vec![Vec::new(); balls.len()];
+    for (k, &i) in of.iter().enumerate() {
+        for j in (0..balls.len() as u32).filter(|&j| j != i && hold(&new[k], now(j))) {
+            beside[k].push(j);
+            also[j as usize].push(i);
+        }
+    }
+    let (none, still): (&[u32], _) = (&[], |j: u32| slots[j as usize] == u32::MAX);
+    let found = group(balls.len(), |i| {
+        let (listed, more) = match slots[i] {
+            u32::MAX => (near.of(i), &also[i]),
+            k => (none, &beside[k as usize]),
+        };
+        let held = move |&j: &u32| still(j) && hold(&balls[i], &balls[j as usize]);
+        listed.iter().copied().filter(held).chain(more.iter().copied())
+    });
+    found.1
+}
+
 /// Joins the parts of a clump, as many as the limits allow; returns how many there are then.
 pub(super) fn join(state: &mut State, look: &mut Look, watch: &Watch) -> Result<usize> {
     let mut near = Near::default();
+    let mut seen: Vec<Seen> = Vec::new();
     loop {
         let (part, count) = parts(&state.balls, &mut near);
         if count < 2 || !watch.go() {
             return Ok(count);
         }
-        let Some([i, j]) = closest(&state.balls, &part) else { return Ok(count) };
-        let mut best: Option<(f64, Vec<Ball>)> = None;
-        for mut balls in ways(state, &part, [i, j]) {
+        let Some(pair) = closest(&state.balls, &part)? else { return Ok(count) };
+        let mut best: Option<(f64, Vec<u32>, Vec<Ball>)> = None;
+        for mut balls in ways(state, &part, pair) {
             if !watch.go() {
-                break;
+                return Ok(count);
             }
             state.orbits.even(&state.balls, &mut balls);
-            if parts(&balls, &mut near).1 >= count {
+            let differs = |&j: &u32| balls[j as usize] != state.balls[j as usize];
+            let of: Vec<u32> = (0..balls.len() as u32).filter(differs).collect();
+            let new: Vec<Ball> = of.iter().map(|&j| balls[j as usize]).collect();
+            if parts_after(&state.balls, &near, (&of, &new)) >= count {
                 continue;
             }
-            let cost = state.cost_of(&balls, look);
+            seen.clone_from(&state.seen);
+            for (&j, ball) in of.iter().zip(&new) {
+                seen[j as usize] = state.ground.dexels.seen(ball);
+            }
+            let cost = state.price(&of, &seen, 1, look);
             if best.as_ref().is_none_or(|b| cost < b.0) {
-                best = Some((cost, balls));
+                best = Some((cost, of, new));
             }
         }
-        let Some((_, balls)) = best else { return Ok(count) };
-        state.balls = balls;
-        state.renew(look)?;
+        let Some((_, of, new)) = best else { return Ok(count) };
+        state.put(&of, &new, look);
     }
 }
 
 /// The two balls with the least gap of which one is in the smallest part and the other is not.
-fn closest(balls: &[Ball], part: &[u32]) -> Option<[usize; 2]> {
+fn closest(balls: &[Ball], part: &[u32]) -> Result<Option<[usize; 2]>> {
     let mut sizes = vec![0u32; balls.len()];
     part.iter().for_each(|&p| sizes[p as usize] += 1);
-    let small = (0..balls.len()).filter(|&p| sizes[p] > 0).min_by_key(|&p| sizes[p])? as u32;
-    let mut best = (f32::MAX, None);
+    let smallest = (0..balls.len()).filter(|&p| sizes[p] > 0).min_by_key(|&p| sizes[p]);
+    let Some(small) = smallest.map(|p| p as u32) else { return Ok(None) };
+    let mut spheres = reserve("spheres", balls.len())?;
+    spheres.extend(balls.iter().map(|b| b.sphere()));
+    let tree = Tree::new(&spheres, |j| part[j] != small)?;
+    let mut best = (f32::MAX, [0; 2]);
     for i in (0..balls.len()).filter(|&i| part[i] == small) {
-        for j in (0..balls.len()).filter(|&j| part[j] != small) {
+        let p = spheres[i].center;
+        let away = |j: u32| {
+            let s = &spheres[j as usize];
+            ((s.center - p).norm() - s.radius).max(0.0)
+        };
+        tree.nearest_first(&p, away, |j, _| {
+            let j = j as usize;
             let gap = balls[i].apart(&balls[j]).sqrt() - balls[i].radius - balls[j].radius;
-            if gap < best.0 {
-                best = (gap, Some([i, j]));
+            if gap < best.0 || (gap == best.0 && [i, j] < best.1) {
+                best = (gap, [i, j]);
             }
-        }
+            // Beyond this none is nearer, for all that rounding does.
+            (f64::from(best.0) + spheres[i].radius) * (1.0 + 1e-5) + 1e-6
+        });
     }
-    best.1
+    Ok((best.0 < f32::MAX).then_some(best.1))
 }
 
 /// Clumps in which the balls i and j may hang together: one or both have grown or moved, the part
@@ -225,14 +292,51 @@ mod tests {
             let firsts = (0..n).filter(|&i| (0..i).all(|j| !reach[i][j])).count();
             assert_eq!(found, firsts);
             let spheres: Vec<Sphere> = balls.iter().map(|b| b.sphere()).collect();
-            assert!(count(&spheres) <= found);
+            assert!(count(&spheres).unwrap() <= found);
         }
     }
 
     #[test]
     fn spheres_that_only_touch_do_not_hold() {
         let at = |x: f64| Sphere::new(Vec3::new(x, 0.0, 0.0), 0.5);
-        assert_eq!(count(&[at(0.0), at(1.0), at(1.9)]), 2);
-        assert_eq!(count(&[at(0.0), at(0.99), at(1.9)]), 1);
+        assert_eq!(count(&[at(0.0), at(1.0), at(1.9)]).unwrap(), 2);
+        assert_eq!(count(&[at(0.0), at(0.99), at(1.9)]).unwrap(), 1);
+    }
+
+    #[test]
+    fn the_closest_pair_and_parts_after_a_change_are_as_by_all_pairs() {
+        let mut random = Random::new(6, 0);
+        for n in [2, 30, 400] {
+            let edge = 2.0 * (n as f64).cbrt();
+            let mut ball = || Ball {
+                center: [0; 3].map(|_| (edge * random.unit()) as f32),
+                radius: random.between(0.1, 0.9) as f32,
+            };
+            for _ in 0..5 {
+                let mut balls: Vec<Ball> = (0..n).map(|_| ball()).collect();
+                let mut near = Near::default();
+                let (part, count) = parts(&balls, &mut near);
+                if count > 1 {
+                    let [i, j] = closest(&balls, &part).unwrap().unwrap();
+                    let gap = |i: usize, j: usize| {
+                        balls[i].apart(&balls[j]).sqrt() - balls[i].radius - balls[j].radius
+                    };
+                    let small = part[i];
+                    let inside = |k: &usize| part[*k] == small;
+                    let size = |p: u32| part.iter().filter(|&&q| q == p).count();
+                    assert!(part.iter().all(|&p| size(small) <= size(p)));
+                    for a in (0..n).filter(inside) {
+                        assert!((0..n).filter(|b| !inside(b)).all(|b| gap(a, b) >= gap(i, j)));
+                    }
+                }
+                let of: Vec<u32> = (0..n as u32).filter(|j| j % 7 == 1).collect();
+                let new: Vec<Ball> = of.iter().map(|_| ball()).collect();
+                let found = parts_after(&balls, &near, (&of, &new));
+                for (&j, new) in of.iter().zip(&new) {
+                    balls[j as usize] = *new;
+                }
+                assert_eq!(found, parts(&balls, &mut near).1);
+            }
+        }
     }
 }

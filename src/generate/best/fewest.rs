@@ -8,6 +8,7 @@ use crate::generate::{Effort, GenerateOptions};
 use crate::measure::{QualityOptions, quality};
 use crate::run::Run;
 use crate::solid::Solid;
+use std::cell::RefCell;
 
 /// Most spheres that are tried where no number is given.
 const MOST: usize = 5000;
@@ -32,11 +33,20 @@ pub(in crate::generate) fn make(
             figure(options.min_radius)
         )));
     }
-    let search = Search { solid, options, run };
-    match (options.spheres, options.mismatch) {
+    let search = Search { solid, options, run, kept: RefCell::default() };
+    let found = match (options.spheres, options.mismatch) {
         (0, 0.0) => search.most(),
-        (_, 0.0) => best(solid, options, run),
+        (_, 0.0) => return best(solid, options, run),
         _ => search.fewest(),
+    };
+    match (found, search.kept.into_inner()) {
+        // There is a clump: it goes out.
+        (Err(Error::Cancelled(_)), Some((_, clump))) => {
+            let stopped = if run.cancelled(0.0) { Stopped::Cancelled } else { Stopped::Deadline };
+            let note = "the search for the number of spheres was stopped".into();
+            Ok(Clump { stopped, note, ..clump })
+        }
+        (found, _) => found,
     }
 }
 
@@ -44,6 +54,8 @@ struct Search<'a, 'r> {
     solid: &'a Solid,
     options: &'a GenerateOptions,
     run: &'a Run<'r>,
+    /// The last clump, and whether it is good enough: if not, a later one takes its place.
+    kept: RefCell<Option<(bool, Clump)>>,
 }
 
 /// A clump and its D, as the quality figures measure it.
@@ -62,12 +74,25 @@ impl Search<'_, '_> {
     /// The clump of `n` spheres, the `k`th that is tried.
     fn at(&self, n: usize, effort: Effort, k: i32) -> Result<Tried> {
         let options = GenerateOptions { spheres: n, mismatch: 0.0, effort, ..self.options.clone() };
+        // Grid and seeds of one more clump take their time.
+        if self.kept.borrow().is_some() && (self.run.cancelled(0.0) || self.run.late()) {
+            return Err(Error::Cancelled("stopped between two numbers of spheres".into()));
+        }
         self.run.within([1.0 - 0.8f64.powi(k), 1.0 - 0.8f64.powi(k + 1)], || {
             let clump = best(self.solid, &options, self.run)?;
+            let mut kept = self.kept.borrow_mut();
+            if kept.as_ref().is_none_or(|k| !k.0) {
+                *kept = Some((false, clump.clone()));
+            }
             let wanted = QualityOptions { surface: false, ..QualityOptions::default() };
             // Cancelled or late, what there is goes out.
             match quality(self.solid, &clump.spheres, &wanted, self.run) {
-                Ok(q) => Ok(Tried { clump, d: q.mismatch }),
+                Ok(q) => {
+                    if q.mismatch <= self.options.mismatch {
+                        *kept = Some((true, clump.clone()));
+                    }
+                    Ok(Tried { clump, d: q.mismatch })
+                }
                 Err(Error::Cancelled(_)) => {
                     Ok(Tried { clump: Clump { stopped: Stopped::Cancelled, ..clump }, d: 1.0 })
                 }

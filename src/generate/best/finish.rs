@@ -75,8 +75,8 @@ fn together(exact: &Exact, mut images: Vec<Sphere>) -> Vec<Sphere> {
 }
 
 /// The note, and what is to be said of spheres that should hang together and do not.
-pub(super) fn pieces(spheres: &[Sphere], mut note: String) -> String {
-    let parts = connected::count(spheres);
+pub(super) fn pieces(spheres: &[Sphere], mut note: String) -> Result<String> {
+    let parts = connected::count(spheres)?;
     if parts > 1 {
         if !note.is_empty() {
             note.push_str("; ");
@@ -84,5 +84,5 @@ pub(super) fn pieces(spheres: &[Sphere], mut note: String) -> String {
         note +=
             &format!("the spheres are {parts} parts that the limits keep from hanging together");
     }
-    note
+    Ok(note)
 }

@@ -28,8 +28,9 @@ pub use options::{BestOptions, HalfSpace, Symmetry};
 
 use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
-use crate::error::{Error, Result, figure};
+use crate::error::{Error, Result, figure, fits};
 use crate::generate::balls::cover::Look;
+use crate::generate::balls::piles::Piles;
 use crate::generate::balls::smooth::Smooth;
 use crate::run::Run;
 use crate::solid::Solid;
@@ -94,6 +95,12 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         size: size as f32,
         room: solid.memory_limit().saturating_sub(solid.bytes() + field.bytes() + dexels.bytes()),
     };
+    let held = solid.bytes() + field.bytes() + dexels.bytes();
+    let columns = dexels.dims[0] * dexels.dims[1];
+    let start = seeds::bytes(&plan);
+    let later = 16 * columns as u64 + Piles::expected(columns, plan.columns, n);
+    fits(format_args!("{n} spheres of the method best"), start.max(later), ground.room)?;
+    run.count(|c| c.peak_bytes = c.peak_bytes.max(held + start));
     let mut look = Look::default();
     let watch = Watch::new(run);
     let mut done = 0.0;
@@ -102,9 +109,8 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         watch.at(0.1 + 0.3 * f64::min(done, 1.0))
     };
     let smooth = if asked.smoothness > 0.0 {
-        let held = solid.bytes() + field.bytes() + dexels.bytes();
-        let room = solid.memory_limit().saturating_sub(held);
         let (grid, seed) = (solid.grid(), run.seed());
+        let room = ground.room.saturating_sub(later);
         Some(Smooth::new(asked.smoothness, grid, (&field, &dexels), (n, volume), seed, room)?)
     } else {
         None
@@ -112,10 +118,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let start = Start { ground, plan, n, seed: run.seed(), pool: run.pool() };
     let mut state = start.best(&choices, smooth, &mut look, &mut go)?;
     state.join(&mut look, &watch)?;
-    run.count(|c| {
-        let held = solid.bytes() + field.bytes() + dexels.bytes() + state.bytes();
-        c.peak_bytes = c.peak_bytes.max(held);
-    });
+    let mut peak = state.bytes();
     let mut search = Search::new(&mut state, run.seed(), run.pool(), &watch);
     let batches = plan.moves.div_ceil(BATCH);
     for k in 0..batches {
@@ -124,6 +127,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         }
         search.batch()?;
     }
+    peak = peak.max(search.state.bytes()) + search.bytes();
     // No more moves.
     search.state.keep_books(false);
     if watch.at(0.9) && plan.polish[1] > 0 {
@@ -136,6 +140,8 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
             volume::swell(&mut search, plan.polish.map(|count| count.max(LAST)))?;
         }
     }
+    peak = peak.max(search.state.bytes() + search.bytes()) + look.bytes();
+    run.count(|c| c.peak_bytes = c.peak_bytes.max(held + peak));
     let d = state.mismatch();
     let volume = (whole, run.pool(), &watch);
     let (spheres, mut short) = finish::finish(&state.balls, &state.orbits, frame, &exact, volume)?;
@@ -151,7 +157,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
         Stopped::Cancelled => format!("cancelled by the caller at a mismatch of about {d:.4}"),
         _ => short,
     };
-    let note = if asked.connected { finish::pieces(&spheres, note) } else { note };
+    let note = if asked.connected { finish::pieces(&spheres, note)? } else { note };
     if spheres.len() < n && stopped == Stopped::Spheres {
         stopped = Stopped::Exhausted;
     }

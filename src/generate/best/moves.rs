@@ -68,6 +68,12 @@ pub(super) struct Mover<'a> {
 }
 
 impl<'a> Mover<'a> {
+    /// Bytes of its large arrays.
+    pub(super) fn bytes(&self) -> u64 {
+        let balls = 16 * (self.trial.capacity() + self.seen.capacity()) as u64;
+        balls + self.look.bytes() + self.refiner.bytes()
+    }
+
     /// Tries a move of ball `i`; what it changes, when D falls.
     pub(super) fn attempt(
         &mut self,

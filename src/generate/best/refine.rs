@@ -77,6 +77,14 @@ pub(super) struct Refiner {
 }
 
 impl Refiner {
+    /// Bytes of its large arrays.
+    pub(super) fn bytes(&self) -> u64 {
+        let each = size_of::<([f32; 5], Hiders)>() * self.step.capacity()
+            + 16 * self.speed.capacity()
+            + 4 * (self.path.capacity() + self.all.capacity());
+        self.near.bytes() + self.drawn.bytes() + each as u64
+    }
+
     /// Refines the balls `of`, which lead their orbits; balls of other orbits stay. `pool`: threads that share the balls; the result
     /// does not depend on it. `go` is asked after every iteration whether to go on.
     #[expect(clippy::too_many_arguments)]
@@ -112,7 +120,7 @@ impl Refiner {
             if anew {
                 match task.pull {
                     Some(_) => near.make(balls, of, slack),
-                    None => near.unsorted(balls, of, slack),
+                    None => near.short(balls, of, slack),
                 }
                 path.clear();
                 path.resize(of.len(), 0.0);
@@ -127,7 +135,7 @@ impl Refiner {
                 Sampler { field: task.field, directions: turned, weights: task.weights, width };
             let one = |k: usize, (step, hiders): &mut ([f32; 5], Hiders), scratch: &mut Scratch| {
                 let ball = &balls[of[k] as usize];
-                let free = path[k] >= 0.5 * slack;
+                let free = path[k] >= 0.5 * slack || near.all(k);
                 let among = if free {
                     [&all[..of[k] as usize], &all[of[k] as usize + 1..]]
                 } else {

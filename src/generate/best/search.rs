@@ -65,6 +65,13 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
+    /// Bytes of its large arrays.
+    pub(super) fn bytes(&self) -> u64 {
+        let mover = |m: &Mutex<Mover>| m.lock().unwrap_or_else(PoisonError::into_inner).bytes();
+        let movers: u64 = self.movers.iter().map(mover).sum();
+        movers + self.look.bytes() + self.refiner.bytes()
+    }
+
     /// Tries a batch of moves.
     pub(super) fn batch(&mut self) -> Result<()> {
         let picked: Vec<usize> = (0..BATCH).map(|_| self.pick()).collect();

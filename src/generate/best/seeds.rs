@@ -14,6 +14,12 @@ pub(super) const GROWN: f32 = 1.05;
 /// How far beyond the limits a candidate may reach, of its radius.
 const SLACK: f32 = 0.01;
 
+/// Bytes that seeds take: of each point, three copies; of each candidate, two, its gain and its
+/// place in the queue.
+pub(super) fn bytes(plan: &Plan) -> u64 {
+    44 * plan.points as u64 + 72 * plan.candidates as u64
+}
+
 /// `n` balls.
 pub(super) fn seeds(
     ground: &Ground,

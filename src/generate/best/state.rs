@@ -112,7 +112,9 @@ impl<'a> State<'a> {
 
     /// Bytes of its large arrays.
     pub(super) fn bytes(&self) -> u64 {
-        self.cover.bytes() + self.piles.bytes()
+        let smooth = self.smooth.as_ref().map_or(0, Smooth::bytes);
+        let each = size_of::<Ball>() + size_of::<Seen>() + size_of::<Lengths>() + 4;
+        self.cover.bytes() + self.piles.bytes() + smooth + (each * self.balls.len()) as u64
     }
 
     /// D by the columns.
@@ -281,12 +283,6 @@ impl<'a> State<'a> {
         connected::parts(&all, &mut self.near).1 > self.parts
     }
 
-    /// By how much the cost would rise if these were the balls.
-    pub(super) fn cost_of(&self, balls: &[Ball], look: &mut Look) -> f64 {
-        let seen: Vec<Seen> = balls.iter().map(|b| self.ground.dexels.seen(b)).collect();
-        self.cost(&look.change_all(&self.cover, self.ground.dexels, &seen))
-    }
-
     /// Puts `balls` to the places of those with the numbers `of` if the goal falls; whether it does.
     pub(super) fn take(&mut self, of: &[u32], balls: &[Ball], look: &mut Look) -> bool {
         let dexels = self.ground.dexels;
@@ -298,6 +294,29 @@ impl<'a> State<'a> {
         if cost >= 0.0 || self.falls_apart(of, balls) {
             return false;
         }
+        self.accept((of, balls), seen, (change, distances), look);
+        true
+    }
+
+    /// Puts `balls` to the places of those with the numbers `of`, whatever it costs.
+    pub(super) fn put(&mut self, of: &[u32], balls: &[Ball], look: &mut Look) {
+        let mut seen = self.seen.clone();
+        for (&j, ball) in of.iter().zip(balls) {
+            seen[j as usize] = self.ground.dexels.seen(ball);
+        }
+        let (_, change, distances) = self.change(of, &seen, 1, look);
+        self.accept((of, balls), seen, (change, distances), look);
+    }
+
+    /// Takes over what the last look at a change found.
+    fn accept(
+        &mut self,
+        (of, balls): (&[u32], &[Ball]),
+        seen: Vec<Seen>,
+        (change, distances): (Lengths, [f64; 2]),
+        look: &mut Look,
+    ) {
+        let dexels = self.ground.dexels;
         if let Some(smooth) = &mut self.smooth {
             smooth.take(dexels, &look.region, distances, &look.smooth);
         }
@@ -312,7 +331,6 @@ impl<'a> State<'a> {
         self.seen = seen;
         self.lengths = self.lengths.plus(&change);
         self.version += 1;
-        true
     }
 
     /// Looks at the columns that the balls `of` touch now or in `seen`.

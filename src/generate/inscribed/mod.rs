@@ -10,7 +10,7 @@ mod swap;
 
 use super::GenerateOptions;
 use crate::clump::{Clump, Stopped};
-use crate::error::{Error, Result, figure, filled, reserve};
+use crate::error::{Error, Result, figure, filled, fits, reserve};
 use crate::generate::balls::bounds;
 use crate::generate::balls::dexels::Dexels;
 use crate::generate::balls::field::Field;
@@ -50,6 +50,13 @@ pub(in crate::generate) fn inscribed(
         c.columns += (dexels.dims[0] * dexels.dims[1]) as u64;
         c.peak_bytes = c.peak_bytes.max(solid.bytes() + field.bytes() + dexels.bytes());
     });
+    // Points and candidates of the greedy cover, and what columns hold: twice.
+    let own = 44 * plan.points as u64 + 72 * plan.candidates as u64;
+    let own = own + 16 * (dexels.dims[0] * dexels.dims[1]) as u64 + 160 * n as u64;
+    let held = solid.bytes() + field.bytes() + dexels.bytes();
+    let room = solid.memory_limit().saturating_sub(held);
+    fits(format_args!("{n} spheres of the method inscribed"), own, room)?;
+    run.count(|c| c.peak_bytes = c.peak_bytes.max(held + own));
     let size = (solid.unit_moments().volume / 0.2).cbrt();
     let scale = solid.frame().scale;
     let least = (LEAST * size).max(options.min_radius / scale);
