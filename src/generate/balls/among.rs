@@ -93,7 +93,7 @@ pub(crate) fn among(
         }
     }
     // Those that hid most first; of equal ones the first.
-    hid.sort_by(|x, y| y.0.cmp(&x.0));
+    hid.sort_by_key(|x| std::cmp::Reverse(x.0));
     hiders.count = hid.len().min(KEPT);
     for (to, from) in hiders.balls.iter_mut().zip(hid.iter()) {
         *to = from.1;

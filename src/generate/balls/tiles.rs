@@ -172,14 +172,12 @@ impl Sieve {
             }
         }
         if out {
-            let mut k = 0;
             let mut kept = first;
-            for at in first..list.len() {
-                if left[k] {
+            for (at, &left) in (first..).zip(left.iter()) {
+                if left {
                     list[kept] = list[at];
                     kept += 1;
                 }
-                k += 1;
             }
             list.truncate(kept);
         }
