@@ -30,11 +30,15 @@ const AT_ONCE: usize = 1 << 21;
 /// `padding` cells clear around it. Refused where that and what an open mesh needs may take more
 /// than `limit` bytes.
 pub fn inside(body: &Body, grid: &Grid, padding: usize, limit: u64, run: &Run) -> Result<Vec<u8>> {
-    let k = match body {
+    covered(body, grid, padding, columns_of(body, limit, run)?, limit, run)
+}
+
+/// Columns per cell along each sampled axis.
+fn columns_of(body: &Body, limit: u64, run: &Run) -> Result<usize> {
+    Ok(match body {
         Body::Mesh(m) if !m.clean && wide_open(m, limit, run)? => COLUMNS_OPEN,
         _ => COLUMNS,
-    };
-    covered(body, grid, padding, k, limit, run)
+    })
 }
 
 /// Whether some of the middle layers' cells are in.
@@ -52,7 +56,8 @@ pub(super) fn shows(
     }
     let mut some = Grid { dims: [nx, ny, LAYERS + 2 * padding], ..*grid };
     some.origin.z += (nz / 2 - padding - LAYERS / 2) as f64 * grid.spacing.z;
-    Ok(covered(body, &some, padding, COLUMNS, limit, run)?.contains(&1))
+    let k = columns_of(body, limit, run)?;
+    Ok(covered(body, &some, padding, k, limit, run)?.contains(&1))
 }
 
 /// As [`inside`], by `k` × `k` columns a cell.

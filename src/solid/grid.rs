@@ -203,9 +203,10 @@ fn of_voxels(v: &Voxels, options: &SolidOptions) -> Result<(Grid, Vec<u8>)> {
     Ok((grid, inside))
 }
 
-/// With this much memory for closed meshes of fewer faces than that, the cells inside can be found
-/// later: columns need some hundred bytes a face at most.
-const AMPLE: (u64, usize) = (1 << 28, 1 << 20);
+/// With this much memory for closed meshes of no more faces than that, or other meshes of no more
+/// than that, the cells inside can be found later: columns need some hundred bytes a face at most,
+/// of a mesh with openings less than a thousand.
+const AMPLE: (u64, [usize; 2]) = (1 << 28, [1 << 20, 1 << 17]);
 
 /// Cubic cells about the middle of the box, as fine as asked for, or finer where the shape is thin;
 /// which are inside, where that cannot wait.
@@ -273,8 +274,9 @@ fn of_mesh(
         let grid = Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half };
         let limit = options.memory_limit;
         let (body, padding) = (&shape.body, options.padding);
-        let ample = limit >= AMPLE.0 && mesh.faces.len() <= AMPLE.1;
-        if mesh.clean && ample && coverage::shows(body, &grid, padding, limit, run)? {
+        let most = AMPLE.1[usize::from(!mesh.clean)];
+        let ample = limit >= AMPLE.0 && mesh.faces.len() <= most;
+        if ample && coverage::shows(body, &grid, padding, limit, run)? {
             return Ok((true, grid, None));
         }
         let inside = coverage::inside(body, &grid, padding, limit, run)?;

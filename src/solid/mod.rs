@@ -73,7 +73,7 @@ impl Solid {
 
     /// 1 for cells of which more than half is covered (Buchele et al. 2026, eq 5), else 0; x fastest.
     ///
-    /// Of a closed mesh they are found when first asked for.
+    /// Of a mesh that is not huge they are found when first asked for.
     pub fn inside(&self) -> &[u8] {
         // The mesh has shown that its columns fit into the memory limit.
         self.inside.get_or_init(|| self.cells(&Run::serial()).unwrap_or_default())

@@ -1,7 +1,7 @@
 //! Exact volume, centroid and inertia of a body.
 
 use super::Columns;
-use super::columns::{Lattice, Rows, closed};
+use super::columns::{Cones, Lattice, Rows, border};
 use super::winding::Winding;
 use crate::error::{Error, Result};
 use crate::math::{Inertia, Moments, Vec3};
@@ -46,7 +46,7 @@ pub(super) fn within(body: &Body, limit: u64, run: &Run) -> Result<Moments> {
             let Some((lo, hi)) = bounds(mesh) else {
                 return Err(Error::Empty("the mesh has no face".into()));
             };
-            if !(mesh.clean || closed(mesh)?) {
+            if !(mesh.clean || border(mesh)?.is_empty()) {
                 let n = if wide_open(mesh, limit, run)? { WIDE_OPEN } else { OPEN };
                 return by_columns(body, [lo, hi], n, limit, run);
             }
@@ -104,18 +104,28 @@ fn difference(a: &Moments, b: &Moments) -> f64 {
 }
 
 /// Whether the openings are felt in a tenth of the box or more: the winding number there, on
-/// 8³ points, is far from whole.
+/// 8³ points, is far from whole; or that of what closes the mesh, as both add up to whole ones.
 pub(super) fn wide_open(mesh: &Mesh, limit: u64, run: &Run) -> Result<bool> {
     const N: usize = 8;
     let Some((lo, hi)) = bounds(mesh) else { return Ok(false) };
-    let winding = Winding::within(mesh, limit)?;
-    run.count(|c| c.peak_bytes = c.peak_bytes.max(winding.bytes()));
-    let felt = (0..N * N * N).filter(|q| {
-        let at = [q % N, q / N % N, q / (N * N)].map(|i| (i as f64 + 0.5) / N as f64);
-        let w = winding.at(&(lo + (hi - lo).component_mul(&Vec3::from(at))));
-        (w - w.round()).abs() > 0.05
-    });
-    Ok(10 * felt.count() >= N * N * N)
+    let felt = |winding: &dyn Fn(&Vec3) -> f64| {
+        let felt = (0..N * N * N).filter(|q| {
+            let at = [q % N, q / N % N, q / (N * N)].map(|i| (i as f64 + 0.5) / N as f64);
+            let w = winding(&(lo + (hi - lo).component_mul(&Vec3::from(at))));
+            (w - w.round()).abs() > 0.05
+        });
+        10 * felt.count() >= N * N * N
+    };
+    let border = border(mesh)?;
+    let (answer, bytes) = if border.len() < mesh.faces.len() {
+        let cones = Cones::new(mesh, &border, limit)?;
+        (felt(&|p| cones.at(p)), cones.bytes())
+    } else {
+        let winding = Winding::within(mesh, limit)?;
+        (felt(&|p| winding.at(p)), winding.bytes())
+    };
+    run.count(|c| c.peak_bytes = c.peak_bytes.max(bytes));
+    Ok(answer)
 }
 
 /// Corners of the box about the faces.
@@ -144,13 +154,18 @@ pub(super) fn area(mesh: &Mesh) -> f64 {
 /// Sums over the tetrahedra between the faces and a point: the integrals over the polyhedron,
 /// exact up to rounding. Two passes, the second about the centroid, so that nothing cancels.
 fn of_polyhedron(mesh: &Mesh, middle: &Vec3, run: &Run) -> Moments {
-    let sum = |about: Vec3| {
+    let sum = |about: Vec3, whole: bool| {
         let chunks = mesh.faces.len().div_ceil(CHUNK);
         let partial = run.pool().map(chunks, |c| {
             let mut s = Sums::default();
             for i in c * CHUNK..mesh.faces.len().min((c + 1) * CHUNK) {
                 let [a, b, c] = mesh.corners(i);
-                s.tetrahedron([a - about, b - about, c - about]);
+                let corners = [a - about, b - about, c - about];
+                if whole {
+                    s.tetrahedron(corners);
+                } else {
+                    s.place(&corners);
+                }
             }
             s
         });
@@ -159,12 +174,12 @@ fn of_polyhedron(mesh: &Mesh, middle: &Vec3, run: &Run) -> Moments {
             total
         })
     };
-    let first = sum(*middle);
+    let first = sum(*middle, false);
     if first.volume == 0.0 {
         return first.moments(middle);
     }
     let centroid = middle + first.first / first.volume;
-    sum(centroid).moments(&centroid)
+    sum(centroid, true).moments(&centroid)
 }
 
 /// Integrals over a body: 1, x, and xx, yy, zz, xy, xz, yz.
@@ -176,12 +191,21 @@ struct Sums {
 }
 
 impl Sums {
-    /// Adds the tetrahedron between the origin and a face.
-    fn tetrahedron(&mut self, [a, b, c]: [Vec3; 3]) {
-        let det = a.dot(&b.cross(&c));
+    /// Adds the volume of the tetrahedron between the origin and a face, and its place; gives its
+    /// volume times six, and the sum of its corners.
+    #[inline(always)]
+    fn place(&mut self, [a, b, c]: &[Vec3; 3]) -> (f64, Vec3) {
+        let det = a.dot(&b.cross(c));
         let s = a + b + c;
         self.volume += det / 6.0;
         self.first += s * (det / 24.0);
+        (det, s)
+    }
+
+    /// Adds the tetrahedron between the origin and a face.
+    fn tetrahedron(&mut self, corners: [Vec3; 3]) {
+        let (det, s) = self.place(&corners);
+        let [a, b, c] = corners;
         let share = det / 120.0;
         for (second, &(i, j)) in self.second.iter_mut().zip(&PAIRS) {
             let products = s[i] * s[j] + a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
