@@ -8,7 +8,7 @@ mod open;
 mod raster;
 mod spheres;
 
-pub(super) use holes::{Cones, border};
+pub(super) use holes::{Cones, border, loose};
 
 use crate::error::{Error, Result, filled, reserve};
 use crate::math::{Sphere, Vec3};
