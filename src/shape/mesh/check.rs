@@ -72,7 +72,7 @@ pub fn counts(vertices: usize, faces: usize, held: u64, options: &ImportOptions)
             "{vertices} vertices and {faces} faces are more than the {most} that can be indexed"
         )));
     }
-    // While welding: points, unit points, sorting keys, a tree. Later: edges, neighbours, parts,
+    // While welding: points, unit points, a table, a tree. Later: edges, neighbours, parts,
     // trees over faces.
     let (v, f) = (vertices as u64, faces as u64);
     let bytes = u64::max(v * 120 + f * 24, v * 60 + f * 200);

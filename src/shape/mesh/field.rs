@@ -37,8 +37,17 @@ impl<'a> Field<'a> {
         points: &'a [Vec3],
         grain: Grain,
     ) -> Result<Field<'a>> {
-        let corners = |f: u32| faces[f as usize].map(|v| points[v as usize]);
-        let tree = Tree::new(some.iter().copied(), |f| Bounds::of(&corners(f)))?;
+        let corners = |f: u32| {
+            let [a, b, c] = faces[f as usize];
+            [points[a as usize], points[b as usize], points[c as usize]]
+        };
+        // Asked for again and again.
+        let bounds = |f: u32| {
+            let [a, b, c] = faces[f as usize];
+            let (a, b, c) = (&points[a as usize], &points[b as usize], &points[c as usize]);
+            Bounds { lo: a.inf(b).inf(c), hi: a.sup(b).sup(c) }
+        };
+        let tree = Tree::new(some.iter().copied(), bounds)?;
         let mut dipoles: Vec<Dipole> = reserve("a field", tree.nodes().len())?;
         // Halves come after their node: from the last to the first, then turned around.
         let last = tree.nodes().len();
@@ -70,7 +79,8 @@ impl<'a> Field<'a> {
 
     /// The corners of a face.
     pub fn corners(&self, face: u32) -> [Vec3; 3] {
-        self.faces[face as usize].map(|v| self.points[v as usize])
+        let [a, b, c] = self.faces[face as usize];
+        [self.points[a as usize], self.points[b as usize], self.points[c as usize]]
     }
 
     /// The winding number of `p`. A face in whose plane `p` lies adds nothing: on the
@@ -111,7 +121,7 @@ impl<'a> Field<'a> {
 
 /// The solid angle, zero for points in the plane of the face.
 fn facing(t: &[Vec3; 3], p: &Vec3, grain: Grain) -> f64 {
-    let [a, b, c] = t.map(|v| v - p);
+    let [a, b, c] = [t[0] - p, t[1] - p, t[2] - p];
     let normal = (b - a).cross(&(c - a));
     let volume = a.dot(&normal);
     // Relative to the product of the lengths: the centroid of the face itself.

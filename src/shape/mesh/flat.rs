@@ -19,7 +19,8 @@ const SHORT: f64 = 16.0;
 
 /// Height over the longest edge, and which corner is opposite to it.
 fn height(f: &[u32; 3], points: &[Vec3]) -> (f64, usize) {
-    let [a, b, c] = f.map(|v| points[v as usize]);
+    let at = |v: u32| points[v as usize];
+    let (a, b, c) = (at(f[0]), at(f[1]), at(f[2]));
     let edges = [(c - b).norm(), (a - c).norm(), (b - a).norm()];
     let mut apex = 0;
     for k in 1..3 {
@@ -34,7 +35,8 @@ fn height(f: &[u32; 3], points: &[Vec3]) -> (f64, usize) {
 /// Whether a face may be lower than `than`: no, when none is lower by a wide margin.
 pub fn may_be_low(faces: &[[u32; 3]], points: &[Vec3], than: f64) -> bool {
     faces.iter().any(|f| {
-        let [a, b, c] = f.map(|v| points[v as usize]);
+        let at = |v: u32| points[v as usize];
+        let (a, b, c) = (at(f[0]), at(f[1]), at(f[2]));
         let (ab, bc, ca) = (b - a, c - b, a - c);
         let longest2 = ab.norm_squared().max(bc.norm_squared()).max(ca.norm_squared());
         // Height times longest edge is twice the area.

@@ -24,7 +24,8 @@ pub fn samples<'a>(
     faces: impl ExactSizeIterator<Item = &'a [u32; 3]> + Clone,
     points: &[Vec3],
 ) -> Result<Vec<(Vec3, f64)>> {
-    let corners = |f: &[u32; 3]| f.map(|v| points[v as usize]);
+    let corners =
+        |f: &[u32; 3]| [points[f[0] as usize], points[f[1] as usize], points[f[2] as usize]];
     let area = |[a, b, c]: [Vec3; 3]| (b - a).cross(&(c - a)).norm() / 2.0;
     let middle = |[a, b, c]: [Vec3; 3]| (a + b + c) / 3.0;
     let mut found = reserve("samples", faces.len().min(SAMPLES))?;
@@ -116,7 +117,8 @@ pub fn extents(
     let mut origin = filled("parts", parts, None)?;
     for (f, &p) in faces.iter().zip(part) {
         let o = *origin[p as usize].get_or_insert(points[f[0] as usize]);
-        let [a, b, c] = f.map(|v| points[v as usize] - o);
+        let at = |v: u32| points[v as usize] - o;
+        let (a, b, c) = (at(f[0]), at(f[1]), at(f[2]));
         let sum = &mut sums[p as usize];
         sum.volume += a.dot(&b.cross(&c));
         sum.area += (b - a).cross(&(c - a)).norm();

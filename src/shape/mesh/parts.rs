@@ -87,7 +87,11 @@ pub fn parts(
     for (i, (f, &p)) in faces.iter().zip(of).enumerate() {
         let part = &mut parts[p as usize];
         push("faces of a part", &mut part.faces, i as u32)?;
-        part.bounds = part.bounds.join(&Bounds::of(f.iter().map(|&v| &points[v as usize])));
+        let bounds = &mut part.bounds;
+        for &v in f {
+            let p = &points[v as usize];
+            (bounds.lo, bounds.hi) = (bounds.lo.inf(p), bounds.hi.sup(p));
+        }
     }
     for (part, extent) in parts.iter_mut().zip(extents) {
         part.extent = *extent;

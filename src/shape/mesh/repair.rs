@@ -87,8 +87,11 @@ pub fn close(faces: &[[u32; 3]], points: &[Vec3], tolerance: f64, grain: Grain) 
         }
     }
     let mut kept = best.0;
-    kept.edges = None;
-    kept.degenerate += flat::drop_flat(&mut kept.faces, points, reach, grain.flat())?;
+    // Where no face is low none is dropped, nor changed.
+    if flat::may_be_low(&kept.faces, points, reach.max(grain.flat())) {
+        kept.edges = None;
+        kept.degenerate += flat::drop_flat(&mut kept.faces, points, reach, grain.flat())?;
+    }
     Ok(kept)
 }
 
@@ -100,8 +103,9 @@ fn longest(bounds: &Bounds) -> f64 {
 fn reach_of(faces: &[[u32; 3]], points: &[Vec3], most: f64) -> Result<f64> {
     let mut edges: Vec<f64> = reserve("edge lengths", faces.len() * 3)?;
     for f in faces {
-        let [a, b, c] = f.map(|v| points[v as usize]);
-        edges.extend([b - a, c - b, a - c].map(|e| e.norm_squared()));
+        let at = |v: u32| points[v as usize];
+        let (a, b, c) = (at(f[0]), at(f[1]), at(f[2]));
+        edges.extend([(b - a).norm_squared(), (c - b).norm_squared(), (a - c).norm_squared()]);
     }
     if edges.is_empty() {
         return Ok(0.0);
@@ -114,7 +118,8 @@ fn reach_of(faces: &[[u32; 3]], points: &[Vec3], most: f64) -> Result<f64> {
 /// The faces by `root`, and how many of their edges do not have exactly two faces.
 fn attempt(faces: &[[u32; 3]], used: &[bool], root: &[u32], exact: &[u32]) -> Result<(Kept, u64)> {
     let mut kept = Kept { faces: reserve("faces", faces.len())?, ..Kept::default() };
-    kept.faces.extend(faces.iter().map(|f| f.map(|v| root[v as usize])));
+    let at = |v: u32| root[v as usize];
+    kept.faces.extend(faces.iter().map(|f| [at(f[0]), at(f[1]), at(f[2])]));
     kept.faces.retain(|f| f[0] != f[1] && f[1] != f[2] && f[2] != f[0]);
     kept.degenerate = (faces.len() - kept.faces.len()) as u64;
     let mut edges = Edges::of(&kept.faces)?;

@@ -2,39 +2,43 @@
 
 use super::topology::Union;
 use super::tree::{Bounds, Tree};
-use crate::error::{Result, reserve};
+use crate::error::{Result, filled, reserve};
 use crate::math::Vec3;
 
 /// For each point, the lowest index of those equal to it, among the `used` ones.
 ///
-/// They are sorted along a direction to which no plane of a usual part is
-/// perpendicular, so that the sums seldom tie.
+/// They are put one after the other into a table with twice as many places, each into the first
+/// one that is free from where the bits of its coordinates say.
 pub fn equal(points: &[Vec3], used: &[bool]) -> Result<Vec<u32>> {
-    let along = Vec3::new(0.531_730_291, 0.637_208_347, 0.557_913_113);
-    let mut order: Vec<(i64, u32)> = reserve("welding order", points.len())?;
-    let sum = |i: usize| {
-        // In the order of `total_cmp`.
-        let bits = points[i].dot(&along).to_bits() as i64;
-        bits ^ (((bits >> 63) as u64) >> 1) as i64
-    };
-    order.extend((0..points.len()).filter(|&i| used[i]).map(|i| (sum(i), i as u32)));
-    order.sort_unstable();
-    let key = |i: u32| points[i as usize];
-    for tied in order.chunk_by_mut(|a, b| a.0 == b.0).filter(|t| t.len() > 1) {
-        tied.sort_unstable_by(|a, b| {
-            let (p, q) = (key(a.1), key(b.1));
-            p.x.total_cmp(&q.x)
-                .then_with(|| p.y.total_cmp(&q.y))
-                .then_with(|| p.z.total_cmp(&q.z))
-                .then_with(|| a.1.cmp(&b.1))
-        });
-    }
+    const FREE: u32 = u32::MAX;
+    let count = used.iter().filter(|&&u| u).count();
+    let mut table = filled("a table of vertices", (2 * count).next_power_of_two(), FREE)?;
+    let last = table.len() - 1;
     let mut root = reserve("welded vertices", points.len())?;
     root.extend(0..points.len() as u32);
-    for group in order.chunk_by(|a, b| key(a.1) == key(b.1)) {
-        group.iter().for_each(|g| root[g.1 as usize] = group[0].1);
+    for (i, p) in points.iter().enumerate().filter(|p| used[p.0]) {
+        let mut at = mixed(p) as usize & last;
+        while table[at] != FREE && points[table[at] as usize] != *p {
+            at = (at + 1) & last;
+        }
+        if table[at] == FREE {
+            table[at] = i as u32;
+        } else {
+            root[i] = table[at];
+        }
     }
     Ok(root)
+}
+
+/// The bits of the coordinates mixed, with those of 0 for −0.
+fn mixed(p: &Vec3) -> u64 {
+    let mut sum = 0u64;
+    for x in [p.x, p.y, p.z] {
+        sum = (sum ^ (x + 0.0).to_bits()).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        sum ^= sum >> 29;
+    }
+    sum = sum.wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    sum ^ sum >> 32
 }
 
 /// As [`equal`], whose answer is given, with those `loose` points made one, too, that are linked
@@ -94,6 +98,7 @@ mod tests {
                 .collect();
             points.push(Vec3::new(1.0, 1.0, 1.0));
             points.push(Vec3::zeros());
+            points.push(-Vec3::zeros());
             let all = vec![true; points.len()];
             let same = equal(&points, &all).unwrap();
             prop_assert_eq!(&same, &brute(&points, 0.0));
