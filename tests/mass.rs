@@ -238,6 +238,16 @@ fn body_frames_do_not_flip() {
         let there = of(&common::sphere(24, 48, 1.3, at)).quaternion;
         assert!(there.iter().zip(ball.quaternion).all(|(a, b)| (a - b).abs() < 1e-9));
     }
+    // Clumps with equal moments, whose union is known to 1e-10.
+    let at = |i: i32, k: i32| f64::from(2 * (i >> k & 1) - 1);
+    let corners = |i: i32| Vec3::new(at(i, 0), at(i, 1), at(i, 2));
+    for corner in [[0, 3, 5, 6, 0, 3, 5, 6], [0, 1, 2, 3, 4, 5, 6, 7]] {
+        for r in [0.9, 1.1, 1.3, 1.5] {
+            let spheres: Vec<_> = corner.iter().map(|&i| Sphere::new(corners(i), r)).collect();
+            let body = Body::of_union(&spheres, 1.0, &Run::serial()).unwrap();
+            assert_eq!(body.principal.quaternion, [1.0, 0.0, 0.0, 0.0], "{r}");
+        }
+    }
     // A stone without symmetry, each vertex moved by a billionth of its size.
     let stone = Primitive::from_name("stone").unwrap().mesh(48).unwrap();
     let clean = of(&stone);

@@ -72,6 +72,8 @@ impl Body {
         let size = if moments.volume > 0.0 { moments.volume.cbrt() } else { 1.0 };
         let far = (moments.centroid.amax() / size).min(1e16);
         let noise = if far.is_finite() { 0.5 * f64::EPSILON * (far + 1.0) } else { 0.0 };
+        // The moments of a union are as sure as that: equal ones are then told as such.
+        let noise = noise.max(moments.relative_error.clamp(0.0, 1e-10));
         Body::with_frame(moments, PrincipalFrame::of_rounded(&moments.inertia, noise), density)
     }
 
