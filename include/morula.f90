@@ -3,7 +3,7 @@
 ! Compile this file with your own compiler (CMake: link morula::fortran). It has
 ! two layers. The first is one bind(c) interface for each function of morula.h,
 ! with the same names, and its structs as bind(c) types. The second are the types
-! morula_shape_t, morula_solid_t and morula_clump_t, which hold a handle:
+! morula_shape_t, morula_solid_t, morula_clump_t and morula_body_t, which hold a handle:
 !
 !   type(morula_shape_t) :: shape
 !   type(morula_clump_t) :: clump
@@ -65,6 +65,11 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_OVERLAP = 7_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_SURFACE = 8_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_COUNTERS = 9_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_MASS_OPTIONS = 10_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_MASSES = 11_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_CONTACT_OPTIONS = 12_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_TIMESTEP = 13_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_EXPORT_OPTIONS = 14_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_REFUSE = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_LARGEST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_ALL = 2_c_int32_t
@@ -122,6 +127,31 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_CANCELLED = 4_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_EXHAUSTED = 5_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_COVERAGE = 6_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_TARGET_SOLID = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_TARGET_UNION = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_OBJECTIVE_EVEN = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_OBJECTIVE_MAX_MIN = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_OBJECTIVE_MAX_LAST = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_INFEASIBLE_REFUSE = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_INFEASIBLE_LEAST_ERROR = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_MASSES_EXACT = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_MASSES_RELAXED = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_MASSES_MASS_ONLY = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_MERCURY = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_LAMMPS = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_LAMMPS_RIGID = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_LIGGGHTS = 3_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_YADE = 4_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_DEME = 5_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_MFIX = 6_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_KRATOS = 7_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_PFC = 8_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_EDEM = 9_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_CSV = 10_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_JSON = 11_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_VTP = 12_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_PLY = 13_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_EXPORT_STL = 14_c_int32_t
 
   ! ---- structs of morula.h; fill options with the _init functions ----
 
@@ -290,6 +320,63 @@ module morula
     integer(c_int64_t) :: columns = 0_c_int64_t
   end type morula_counters
 
+  type, bind(c), public :: morula_mass_options
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: density = 0.0_c_double
+    real(c_double) :: m_min = 0.0_c_double
+    real(c_double) :: m_max = 0.0_c_double
+    integer(c_int32_t) :: target = 0_c_int32_t
+    integer(c_int32_t) :: objective = 0_c_int32_t
+    integer(c_int32_t) :: infeasible = 0_c_int32_t
+    integer(c_int32_t) :: threads = 0_c_int32_t
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: user = c_null_ptr
+  end type morula_mass_options
+
+  type, bind(c), public :: morula_masses
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: mass = 0.0_c_double
+    real(c_double) :: m_min = 0.0_c_double
+    real(c_double) :: largest_m_min = 0.0_c_double
+    real(c_double) :: mass_residual = 0.0_c_double
+    real(c_double) :: centre_residual = 0.0_c_double
+    real(c_double) :: inertia_residual = 0.0_c_double
+    real(c_double) :: spread = 0.0_c_double
+    real(c_double) :: union_inertia_error = 0.0_c_double
+    integer(c_int32_t) :: status = 0_c_int32_t
+    integer(c_int32_t) :: binding = 0_c_int32_t
+  end type morula_masses
+
+  type, bind(c), public :: morula_contact_options
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: stiffness = 0.0_c_double
+    real(c_double) :: young = 0.0_c_double
+    real(c_double) :: poisson = 0.0_c_double
+    real(c_double) :: speed = 0.0_c_double
+    integer(c_int32_t) :: contacts = 0_c_int32_t
+    integer(c_int32_t) :: reserved = 0_c_int32_t
+  end type morula_contact_options
+
+  type, bind(c), public :: morula_timestep
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: clump = 0.0_c_double
+    real(c_double) :: effective_mass = 0.0_c_double
+    real(c_double) :: stiffness = 0.0_c_double
+    real(c_double) :: rayleigh = 0.0_c_double
+    real(c_double) :: overlap = 0.0_c_double
+    integer(c_int32_t) :: sphere = 0_c_int32_t
+    integer(c_int32_t) :: reserved = 0_c_int32_t
+  end type morula_timestep
+
+  type, bind(c), public :: morula_export_options
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: length = 0.0_c_double
+    real(c_double) :: mass = 0.0_c_double
+    integer(c_int32_t) :: placed = 0_c_int32_t
+    integer(c_int32_t) :: facets = 0_c_int32_t
+    type(c_ptr) :: name = c_null_ptr
+  end type morula_export_options
+
   ! ---- functions of morula.h ----
 
   public :: morula_version, morula_version_string, morula_status_name, morula_last_error_message
@@ -309,6 +396,14 @@ module morula
   public :: morula_solid_copy_note, morula_solid_moments, morula_clump_options_init
   public :: morula_clump_from_shape, morula_clump_from_solid, morula_clump_free
   public :: morula_clumps_from_solid, morula_clumps_from_shapes, morula_clumps_from_labels
+  public :: morula_mass_options_init, morula_body_from_clump, morula_body_from_spheres
+  public :: morula_body_transform, morula_random_orientations, morula_body_free
+  public :: morula_contact_options_init, morula_body_timestep, morula_body_sphere_count
+  public :: morula_body_copy_spheres, morula_body_copy_spheres_f32, morula_body_copy_masses
+  public :: morula_body_copy_binding, morula_body_moments, morula_body_masses
+  public :: morula_masses_status_name, morula_export_options_init, morula_body_write
+  public :: morula_clump_write, morula_body_export, morula_files_count, morula_files_copy_name
+  public :: morula_files_size, morula_files_copy_bytes, morula_files_free
   public :: morula_clump_sphere_count, morula_clump_copy_spheres, morula_clump_stopped
   public :: morula_stopped_name, morula_clump_copy_note, morula_clump_moments
   public :: morula_clump_overlap, morula_clump_surface, morula_clump_copy_exposed_areas
@@ -771,6 +866,181 @@ module morula
       type(morula_counters), intent(inout) :: counters
       integer(c_int32_t) :: r
     end function morula_clump_counters
+    function morula_mass_options_init(options, size) bind(c) result(r)
+      import
+      type(morula_mass_options), intent(out) :: options
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: r
+    end function morula_mass_options_init
+    function morula_body_from_clump(clump, options, body) bind(c) result(r)
+      import
+      type(c_ptr), value :: clump
+      type(morula_mass_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: body
+      integer(c_int32_t) :: r
+    end function morula_body_from_clump
+    function morula_body_from_spheres(xyzr, count, solid, options, body) bind(c) result(r)
+      import
+      real(c_double), intent(in) :: xyzr(4, *)
+      integer(c_size_t), value :: count
+      type(c_ptr), value :: solid
+      type(morula_mass_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: body
+      integer(c_int32_t) :: r
+    end function morula_body_from_spheres
+    function morula_body_transform(body, scale, position, quaternion, density, &
+        placed) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      real(c_double), value :: scale
+      real(c_double), intent(in), optional :: position(*)
+      real(c_double), intent(in), optional :: quaternion(*)
+      real(c_double), value :: density
+      type(c_ptr), intent(inout) :: placed
+      integer(c_int32_t) :: r
+    end function morula_body_transform
+    function morula_random_orientations(seed, count, quaternions) bind(c) result(r)
+      import
+      integer(c_int64_t), value :: seed
+      integer(c_size_t), value :: count
+      real(c_double), intent(inout) :: quaternions(4, *)
+      integer(c_int32_t) :: r
+    end function morula_random_orientations
+    subroutine morula_body_free(body) bind(c)
+      import
+      type(c_ptr), value :: body
+    end subroutine morula_body_free
+    function morula_contact_options_init(options, size) bind(c) result(r)
+      import
+      type(morula_contact_options), intent(out) :: options
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: r
+    end function morula_contact_options_init
+    function morula_body_timestep(body, options, timestep) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      type(morula_contact_options), intent(in) :: options
+      type(morula_timestep), intent(inout) :: timestep
+      integer(c_int32_t) :: r
+    end function morula_body_timestep
+    function morula_body_sphere_count(body, count) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_body_sphere_count
+    function morula_body_copy_spheres(body, frame, capacity, xyzr) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      integer(c_int32_t), value :: frame
+      integer(c_size_t), value :: capacity
+      real(c_double), intent(inout) :: xyzr(4, *)
+      integer(c_int32_t) :: r
+    end function morula_body_copy_spheres
+    function morula_body_copy_spheres_f32(body, frame, capacity, xyzr) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      integer(c_int32_t), value :: frame
+      integer(c_size_t), value :: capacity
+      real(c_float), intent(inout) :: xyzr(4, *)
+      integer(c_int32_t) :: r
+    end function morula_body_copy_spheres_f32
+    function morula_body_copy_masses(body, capacity, masses) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      integer(c_size_t), value :: capacity
+      real(c_double), intent(inout) :: masses(*)
+      integer(c_int32_t) :: r
+    end function morula_body_copy_masses
+    function morula_body_copy_binding(body, capacity, spheres) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      integer(c_size_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: spheres(*)
+      integer(c_int32_t) :: r
+    end function morula_body_copy_binding
+    function morula_body_moments(body, moments) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      type(morula_moments), intent(inout) :: moments
+      integer(c_int32_t) :: r
+    end function morula_body_moments
+    function morula_body_masses(body, masses) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      type(morula_masses), intent(inout) :: masses
+      integer(c_int32_t) :: r
+    end function morula_body_masses
+    function morula_masses_status_name(status) bind(c) result(r)
+      import
+      integer(c_int32_t), value :: status
+      type(c_ptr) :: r
+    end function morula_masses_status_name
+    function morula_export_options_init(options, size) bind(c) result(r)
+      import
+      type(morula_export_options), intent(out) :: options
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: r
+    end function morula_export_options_init
+    function morula_body_write(body, format, options, path) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      integer(c_int32_t), value :: format
+      type(morula_export_options), intent(in), optional :: options
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: r
+    end function morula_body_write
+    function morula_clump_write(clump, masses, format, options, path) bind(c) result(r)
+      import
+      type(c_ptr), value :: clump
+      type(morula_mass_options), intent(in), optional :: masses
+      integer(c_int32_t), value :: format
+      type(morula_export_options), intent(in), optional :: options
+      character(kind=c_char), intent(in) :: path(*)
+      integer(c_int32_t) :: r
+    end function morula_clump_write
+    function morula_body_export(body, format, options, files) bind(c) result(r)
+      import
+      type(c_ptr), value :: body
+      integer(c_int32_t), value :: format
+      type(morula_export_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: files
+      integer(c_int32_t) :: r
+    end function morula_body_export
+    function morula_files_count(files, count) bind(c) result(r)
+      import
+      type(c_ptr), value :: files
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_files_count
+    function morula_files_copy_name(files, index, capacity, text, length) bind(c) result(r)
+      import
+      type(c_ptr), value :: files
+      integer(c_size_t), value :: index
+      integer(c_size_t), value :: capacity
+      type(c_ptr), value :: text
+      integer(c_size_t), intent(inout), optional :: length
+      integer(c_int32_t) :: r
+    end function morula_files_copy_name
+    function morula_files_size(files, index, size) bind(c) result(r)
+      import
+      type(c_ptr), value :: files
+      integer(c_size_t), value :: index
+      integer(c_size_t), intent(inout) :: size
+      integer(c_int32_t) :: r
+    end function morula_files_size
+    function morula_files_copy_bytes(files, index, capacity, bytes) bind(c) result(r)
+      import
+      type(c_ptr), value :: files
+      integer(c_size_t), value :: index
+      integer(c_size_t), value :: capacity
+      integer(c_int8_t), intent(inout) :: bytes(*)
+      integer(c_int32_t) :: r
+    end function morula_files_copy_bytes
+    subroutine morula_files_free(files) bind(c)
+      import
+      type(c_ptr), value :: files
+    end subroutine morula_files_free
   end interface
 
   interface
@@ -872,9 +1142,40 @@ module morula
     final :: clump_final
   end type morula_clump_t
 
+  !> A weighed clump: spheres with masses, and what a solver takes of the whole.
+  type, public :: morula_body_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure, private :: body_from_clump, body_from_spheres
+    !> From a clump, or from xyzr(4, n) in the frame of a solid; without one their union is weighed.
+    generic :: create => body_from_clump, body_from_spheres
+    procedure :: sphere_count => body_sphere_count
+    !> The spheres as xyzr(4, n): x, y, z, radius, in MORULA_FRAME_INPUT or the frame given.
+    procedure :: copy_spheres => body_copy_spheres
+    !> The same in single precision, each within the sphere it stands for.
+    procedure :: copy_spheres_f32 => body_copy_spheres_f32
+    procedure :: copy_masses => body_copy_masses
+    !> Numbers, from 1, of the spheres whose mass is m_min or m_max.
+    procedure :: copy_binding => body_copy_binding
+    procedure :: moments => body_moments
+    procedure :: masses => body_masses
+    !> Into another variable: the same body in another size, place, orientation (w, x, y, z), density.
+    procedure :: transform => body_transform
+    procedure :: timestep => body_timestep
+    !> Writes the file or files of a format, one of MORULA_EXPORT_*.
+    procedure :: write => body_write
+    procedure :: destroy => body_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => body_handle
+    procedure, private :: body_assign
+    generic :: assignment(=) => body_assign
+    final :: body_final
+  end type morula_body_t
+
   !> Options with the defaults.
   interface morula_init
-    procedure :: init_import, init_file, init_solid, init_clump
+    procedure :: init_import, init_file, init_solid, init_clump, init_mass, init_contact, init_export
   end interface morula_init
 
   !> The labels of an array labels(nx, ny, nz), of a file (its path), of the bytes of a file.
@@ -990,6 +1291,24 @@ contains
     integer(c_int32_t), intent(out), optional :: status
     call finish(morula_clump_options_init(options, c_sizeof(options)), status)
   end subroutine init_clump
+
+  subroutine init_mass(options, status)
+    type(morula_mass_options), intent(out) :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_mass_options_init(options, c_sizeof(options)), status)
+  end subroutine init_mass
+
+  subroutine init_contact(options, status)
+    type(morula_contact_options), intent(out) :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_contact_options_init(options, c_sizeof(options)), status)
+  end subroutine init_contact
+
+  subroutine init_export(options, status)
+    type(morula_export_options), intent(out) :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_export_options_init(options, c_sizeof(options)), status)
+  end subroutine init_export
 
   !> The labels of labels(nx, ny, nz), ascending, without 0: ids(n), their cells(n), boxes(6, n)
   !> (first and last cell, counted from 1), and whether they touch the border.
@@ -1648,5 +1967,161 @@ contains
     type(morula_clump_t), intent(inout) :: self
     call self%destroy()
   end subroutine clump_final
+
+  ! ---- weighed clumps ----
+
+  subroutine body_from_clump(self, clump, options, status)
+    class(morula_body_t), intent(inout) :: self
+    class(morula_clump_t), intent(in) :: clump
+    type(morula_mass_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_body_from_clump(clump%handle, options, self%handle), status)
+  end subroutine body_from_clump
+
+  subroutine body_from_spheres(self, xyzr, solid, options, status)
+    class(morula_body_t), intent(inout) :: self
+    real(c_double), intent(in), contiguous :: xyzr(:, :)
+    class(morula_solid_t), intent(in), optional :: solid
+    type(morula_mass_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    type(c_ptr) :: of
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call self%destroy()
+    of = c_null_ptr
+    if (present(solid)) of = solid%handle
+    call finish(morula_body_from_spheres(xyzr, size(xyzr, 2, c_size_t), of, options, &
+      self%handle), status)
+  end subroutine body_from_spheres
+
+  subroutine body_sphere_count(self, count, status)
+    class(morula_body_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_body_sphere_count(self%handle, n), status)
+    count = int(n)
+  end subroutine body_sphere_count
+
+  !> The frame that is asked for.
+  pure function frame_or_input(frame) result(f)
+    integer(c_int32_t), intent(in), optional :: frame
+    integer(c_int32_t) :: f
+    f = MORULA_FRAME_INPUT
+    if (present(frame)) f = frame
+  end function frame_or_input
+
+  subroutine body_copy_spheres(self, xyzr, frame, status)
+    class(morula_body_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: xyzr(:, :)
+    integer(c_int32_t), intent(in), optional :: frame
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call finish(morula_body_copy_spheres(self%handle, frame_or_input(frame), &
+      size(xyzr, 2, c_size_t), xyzr), status)
+  end subroutine body_copy_spheres
+
+  subroutine body_copy_spheres_f32(self, xyzr, frame, status)
+    class(morula_body_t), intent(in) :: self
+    real(c_float), intent(inout), contiguous :: xyzr(:, :)
+    integer(c_int32_t), intent(in), optional :: frame
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call finish(morula_body_copy_spheres_f32(self%handle, frame_or_input(frame), &
+      size(xyzr, 2, c_size_t), xyzr), status)
+  end subroutine body_copy_spheres_f32
+
+  subroutine body_copy_masses(self, masses, status)
+    class(morula_body_t), intent(in) :: self
+    real(c_double), intent(inout), contiguous :: masses(:)
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_body_copy_masses(self%handle, size(masses, kind=c_size_t), masses), status)
+  end subroutine body_copy_masses
+
+  subroutine body_copy_binding(self, spheres, status)
+    class(morula_body_t), intent(in) :: self
+    integer(c_int32_t), intent(inout), contiguous :: spheres(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_int32_t) :: code
+    code = morula_body_copy_binding(self%handle, size(spheres, kind=c_size_t), spheres)
+    if (code == MORULA_STATUS_OK) spheres = spheres + 1
+    call finish(code, status)
+  end subroutine body_copy_binding
+
+  subroutine body_moments(self, moments, status)
+    class(morula_body_t), intent(in) :: self
+    type(morula_moments), intent(out) :: moments
+    integer(c_int32_t), intent(out), optional :: status
+    moments%struct_size = c_sizeof(moments)
+    call finish(morula_body_moments(self%handle, moments), status)
+  end subroutine body_moments
+
+  subroutine body_masses(self, masses, status)
+    class(morula_body_t), intent(in) :: self
+    type(morula_masses), intent(out) :: masses
+    integer(c_int32_t), intent(out), optional :: status
+    masses%struct_size = c_sizeof(masses)
+    call finish(morula_body_masses(self%handle, masses), status)
+  end subroutine body_masses
+
+  subroutine body_transform(self, placed, scale, position, quaternion, density, status)
+    class(morula_body_t), intent(in) :: self
+    type(morula_body_t), intent(inout) :: placed
+    real(c_double), intent(in) :: scale
+    real(c_double), intent(in), optional :: position(3), quaternion(4), density
+    integer(c_int32_t), intent(out), optional :: status
+    type(c_ptr) :: made
+    real(c_double) :: rho
+    integer(c_int32_t) :: code
+    rho = 0.0_c_double
+    if (present(density)) rho = density
+    made = c_null_ptr
+    code = morula_body_transform(self%handle, scale, position, quaternion, rho, made)
+    call placed%destroy()
+    placed%handle = made
+    call finish(code, status)
+  end subroutine body_transform
+
+  subroutine body_timestep(self, contact, timestep, status)
+    class(morula_body_t), intent(in) :: self
+    type(morula_contact_options), intent(in) :: contact
+    type(morula_timestep), intent(out) :: timestep
+    integer(c_int32_t), intent(out), optional :: status
+    timestep%struct_size = c_sizeof(timestep)
+    call finish(morula_body_timestep(self%handle, contact, timestep), status)
+  end subroutine body_timestep
+
+  subroutine body_write(self, format, path, options, status)
+    class(morula_body_t), intent(in) :: self
+    integer(c_int32_t), intent(in) :: format
+    character(*), intent(in) :: path
+    type(morula_export_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_body_write(self%handle, format, options, path // c_null_char), status)
+  end subroutine body_write
+
+  subroutine body_destroy(self)
+    class(morula_body_t), intent(inout) :: self
+    call morula_body_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine body_destroy
+
+  function body_handle(self) result(handle)
+    class(morula_body_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function body_handle
+
+  subroutine body_assign(self, other)
+    class(morula_body_t), intent(inout) :: self
+    class(morula_body_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine body_assign
+
+  impure elemental subroutine body_final(self)
+    type(morula_body_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine body_final
 
 end module morula

@@ -145,6 +145,21 @@
 /// morula_counters, for morula_sizeof().
 #define MORULA_STRUCT_COUNTERS 9
 
+/// morula_mass_options, for morula_sizeof().
+#define MORULA_STRUCT_MASS_OPTIONS 10
+
+/// morula_masses, for morula_sizeof().
+#define MORULA_STRUCT_MASSES 11
+
+/// morula_contact_options, for morula_sizeof().
+#define MORULA_STRUCT_CONTACT_OPTIONS 12
+
+/// morula_timestep, for morula_sizeof().
+#define MORULA_STRUCT_TIMESTEP 13
+
+/// morula_export_options, for morula_sizeof().
+#define MORULA_STRUCT_EXPORT_OPTIONS 14
+
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 #define MORULA_BODIES_REFUSE 0
 
@@ -321,10 +336,93 @@
 /// The coverage asked for was reached.
 #define MORULA_STOPPED_COVERAGE 6
 
+/// The mass, centre and inertia of the true shape, mesh or voxels (the default).
+#define MORULA_TARGET_SOLID 0
+
+/// Those of the union of the spheres.
+#define MORULA_TARGET_UNION 1
+
+/// Masses with the least spread from each sphere's share of the union's volume (the default).
+#define MORULA_OBJECTIVE_EVEN 0
+
+/// Masses of which the least is greatest.
+#define MORULA_OBJECTIVE_MAX_MIN 1
+
+/// Masses of which the last is greatest.
+#define MORULA_OBJECTIVE_MAX_LAST 2
+
+/// Where no masses have the centre of the body: fail with NO_MASSES (the default).
+#define MORULA_INFEASIBLE_REFUSE 0
+
+/// Where no masses have the centre of the body: keep their sum, with the least error of the rest.
+#define MORULA_INFEASIBLE_LEAST_ERROR 1
+
+/// Masses that meet all ten equations: mass, centre and inertia.
+#define MORULA_MASSES_EXACT 0
+
+/// Masses that meet mass and centre; the inertia has the least error that they allow.
+#define MORULA_MASSES_RELAXED 1
+
+/// Masses that meet the mass alone; centre and inertia have the least error.
+#define MORULA_MASSES_MASS_ONLY 2
+
+/// MercuryDPM: a folder with Clump/Clump.txt and Inertia/Mass.txt, TOI.txt, PD.txt.
+#define MORULA_EXPORT_MERCURY 0
+
+/// LAMMPS: a molecule template.
+#define MORULA_EXPORT_LAMMPS 1
+
+/// LAMMPS: the infile of fix rigid/small.
+#define MORULA_EXPORT_LAMMPS_RIGID 2
+
+/// LIGGGHTS: the spheres of fix particletemplate/multisphere, and that command beside it (.in).
+#define MORULA_EXPORT_LIGGGHTS 3
+
+/// YADE: a Python module.
+#define MORULA_EXPORT_YADE 4
+
+/// Chrono DEM-Engine: the spheres of LoadClumpType, with its numbers as comments.
+#define MORULA_EXPORT_DEME 5
+
+/// MFiX: gsp_config.csv of glued-sphere particles.
+#define MORULA_EXPORT_MFIX 6
+
+/// Kratos: .clu.
+#define MORULA_EXPORT_KRATOS 7
+
+/// PFC: a command file that makes a clump template.
+#define MORULA_EXPORT_PFC 8
+
+/// EDEM: a table of spheres, to be pasted.
+#define MORULA_EXPORT_EDEM 9
+
+/// A table with the header x,y,z,r,mass.
+#define MORULA_EXPORT_CSV 10
+
+/// The whole record as JSON.
+#define MORULA_EXPORT_JSON 11
+
+/// VTK: points with radii and masses.
+#define MORULA_EXPORT_VTP 12
+
+/// The surface of the spheres, PLY.
+#define MORULA_EXPORT_PLY 13
+
+/// The surface of the spheres, STL.
+#define MORULA_EXPORT_STL 14
+
+/// A weighed clump: its spheres with a mass each, such that all of them, as solid spheres, add up to the
+/// mass, centre and inertia of the body. Made by morula_body_from_clump(),
+/// morula_body_from_spheres() or morula_body_transform(), freed by morula_body_free().
+typedef struct morula_body morula_body;
+
 /// A clump: spheres and what was measured on them. Made by
 /// morula_clump_from_shape() or morula_clump_from_solid(), freed by
 /// morula_clump_free(). It needs neither shape nor solid any more.
 typedef struct morula_clump morula_clump;
+
+/// The files of a format in memory. Made by morula_body_export(), freed by morula_files_free().
+typedef struct morula_files morula_files;
 
 /// A checked shape: something with an inside. Made by the morula_shape_from_
 /// functions, freed by morula_shape_free().
@@ -705,6 +803,128 @@ typedef struct morula_surface {
   /// 0.
   uint32_t reserved;
 } morula_surface;
+
+/// How the spheres of a clump are weighed. Fill it with morula_mass_options_init().
+typedef struct morula_mass_options {
+  /// sizeof(morula_mass_options).
+  size_t struct_size;
+  /// Mass per (caller's unit)^3. Default 1.
+  double density;
+  /// Least mass of a sphere; negative: a thousandth of the body's mass, or a tenth of the mean
+  /// where that is less. Default -1.
+  double m_min;
+  /// Greatest mass of a sphere; 0: no bound. Default 0.
+  double m_max;
+  /// Whose mass, centre and inertia the clump is to have: one of MORULA_TARGET_*. Default
+  /// MORULA_TARGET_SOLID.
+  int32_t target;
+  /// What is wished of the masses beside: one of MORULA_OBJECTIVE_*. Default
+  /// MORULA_OBJECTIVE_EVEN.
+  int32_t objective;
+  /// What to do where no masses have the centre: one of MORULA_INFEASIBLE_*. Default
+  /// MORULA_INFEASIBLE_REFUSE.
+  int32_t infeasible;
+  /// Threads of this call; 0: all cores. Default 1. The result does not depend on it.
+  int32_t threads;
+  /// Called now and then on the calling thread; NULL: none.
+  morula_progress progress;
+  /// Handed to `progress`.
+  void *user;
+} morula_mass_options;
+
+/// What is known of the contacts of a particle. Fill it with morula_contact_options_init().
+typedef struct morula_contact_options {
+  /// sizeof(morula_contact_options).
+  size_t struct_size;
+  /// Stiffness of a linear spring, force per length; 0: elastic spheres (Hertz) of `young` and
+  /// `poisson`. Default 0.
+  double stiffness;
+  /// Young's modulus, force per area. Default 0, which is refused where it is read.
+  double young;
+  /// Poisson's ratio. Default 0.3.
+  double poisson;
+  /// Greatest speed at which two particles meet. Default 1.
+  double speed;
+  /// How many contacts act on a particle at once, as far as they push the same way. Default 1.
+  uint32_t contacts;
+  /// Must be 0.
+  uint32_t reserved;
+} morula_contact_options;
+
+/// What a clump allows: three figures that answer three questions. A solver takes a part (a tenth to a
+/// fifth) of the first, or of the second where it demands that.
+typedef struct morula_timestep {
+  /// sizeof(morula_timestep), set by the caller.
+  size_t struct_size;
+  /// What the rigid clump obeys: beyond sqrt(2 m / (N k)) an explicit integration of two equal
+  /// clumps that touch in N contacts at their worst points gains energy without bound.
+  double clump;
+  /// The mass m that is felt there: 1/m = 1/M + (p x n) I^-1 (p x n) at the point of a sphere
+  /// where pushing turns the clump most easily.
+  double effective_mass;
+  /// The stiffness k there: the spring's, or that of Hertz at the greatest overlap.
+  double stiffness;
+  /// The Rayleigh step of single spheres, pi r sqrt(density/G) / (0.1631 poisson + 0.8766),
+  /// least over the spheres, each with the density that its mass gives it: what some codes
+  /// demand although in a clump no sphere moves by itself. 0 for a linear spring.
+  double rayleigh;
+  /// The greatest overlap over the least radius when two clumps meet centrally at that speed, in
+  /// one contact of their smallest spheres: contact laws hold far below 0.1.
+  double overlap;
+  /// The sphere of the worst point.
+  uint32_t sphere;
+  /// 0.
+  uint32_t reserved;
+} morula_timestep;
+
+/// How far the masses of the spheres add up to the body.
+typedef struct morula_masses {
+  /// sizeof(morula_masses), set by the caller.
+  size_t struct_size;
+  /// Mass of the body.
+  double mass;
+  /// The least mass that was demanded.
+  double m_min;
+  /// Where not all equations are met: the greatest m_min with which they could be, under the same
+  /// m_max; 0 where no positive masses meet them, or where they are met.
+  double largest_m_min;
+  /// |sum of masses - mass| / mass.
+  double mass_residual;
+  /// Greatest component, along the body axes, of the distance between the centres, over the
+  /// radius of gyration.
+  double centre_residual;
+  /// The greatest |error of I_jk| / sqrt(J_j J_k) in the body frame, J the principal moments.
+  double inertia_residual;
+  /// MORULA_OBJECTIVE_EVEN: how far the density varies, sqrt(sum (m - s)^2 / s / mass) with each
+  /// sphere's share s of the union; else 0.
+  double spread;
+  /// By how much the trace of the inertia of the spheres' union is less than that of the target
+  /// at one density, over the latter; 0 where the union is the target.
+  double union_inertia_error;
+  /// One of MORULA_MASSES_*.
+  int32_t status;
+  /// Spheres whose mass is m_min or m_max.
+  uint32_t binding;
+} morula_masses;
+
+/// How a file for a DEM code is written. Fill it with morula_export_options_init().
+typedef struct morula_export_options {
+  /// sizeof(morula_export_options).
+  size_t struct_size;
+  /// How many units of length of the file one of the caller's has (1000 from metres to
+  /// millimetres). Default 1.
+  double length;
+  /// The same of mass. Default 1.
+  double mass;
+  /// 1: coordinates in the caller's frame instead of the body's, where the format has a choice.
+  /// Default 0.
+  int32_t placed;
+  /// Facets of each sphere where a surface is written: 20 * 4^facets triangles, at most 6.
+  /// Default 3.
+  uint32_t facets;
+  /// Name of the template (UTF-8); NULL: "clump".
+  const char *name;
+} morula_export_options;
 
 #ifdef __cplusplus
 extern "C" {
@@ -1450,6 +1670,251 @@ int32_t morula_clumps_from_labels(const uint32_t *labels,
                                   const struct morula_clump_options *options,
                                   struct morula_clump **clumps,
                                   int32_t *statuses);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_mass_options_init(struct morula_mass_options *options,
+                                 size_t size);
+
+/// Weighs the spheres of a clump.
+///
+/// Parameters: `options` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK, also where only masses with an error of the inertia exist (ask
+/// morula_body_masses()); NULL_POINTER; INVALID_ARGUMENT (an option; bounds of masses that leave no
+/// choice; spheres far from the target); NOT_FINITE; STRUCT_SIZE; NOT_WANTED (the clump was made
+/// without MORULA_WANT_MOMENTS, and the target is the solid); NO_MASSES (no masses have the centre
+/// of the body); CANCELLED; OUT_OF_MEMORY; INTERNAL.
+/// Ownership: the clump stays the caller's and may be freed at once; free *body with
+/// morula_body_free(). *body is written only on success.
+/// Threads: any thread; the clump is only read. The same bytes come out for any number of
+/// threads.
+int32_t morula_body_from_clump(const struct morula_clump *clump,
+                               const struct morula_mass_options *options,
+                               struct morula_body **body);
+
+/// Weighs spheres that were made elsewhere.
+///
+/// Parameters: `xyzr` holds `count` spheres of four numbers each, in the caller's unit and frame;
+/// `solid` is their true shape in the same frame, or NULL for the union of the spheres; `options` may
+/// be NULL for the defaults (of a solid, `target` says whose moments are taken).
+/// Returns: as morula_body_from_clump(); EMPTY (no sphere); INVALID_ARGUMENT also for a radius that
+/// is not above 0.
+/// Ownership: inputs are copied; free *body with morula_body_free(). *body is written only on
+/// success.
+/// Threads: any thread; the solid is only read.
+int32_t morula_body_from_spheres(const double *xyzr,
+                                 size_t count,
+                                 const struct morula_solid *solid,
+                                 const struct morula_mass_options *options,
+                                 struct morula_body **body);
+
+/// The same body in another size, place, orientation and density: x becomes position + rotation
+/// (scale x). Masses scale by scale^3, inertia by scale^5, both by the ratio of the densities;
+/// nothing is solved again.
+///
+/// Parameters: `position` holds three numbers, or is NULL for 0, 0, 0; `quaternion` holds w, x, y,
+/// z of any length but 0, or is NULL for no turn; `density` 0 leaves the body's.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (scale or density not above 0, a
+/// quaternion of 0, a size beyond the numbers); NOT_FINITE; OUT_OF_MEMORY; INTERNAL.
+/// Ownership: the body stays the caller's; free *placed with morula_body_free(). *placed is
+/// written only on success.
+/// Threads: any thread; the body is only read.
+int32_t morula_body_transform(const struct morula_body *body,
+                              double scale,
+                              const double *position,
+                              const double *quaternion,
+                              double density,
+                              struct morula_body **placed);
+
+/// Rotations drawn evenly from all, for the orientations of many particles: the same for the same
+/// seed, and the first ones the same for any count.
+///
+/// Parameters: `quaternions` has room for 4 * `count` numbers: w, x, y, z each, w >= 0.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; TOO_LARGE; OUT_OF_MEMORY.
+/// Threads: any thread.
+int32_t morula_random_orientations(uint64_t seed,
+                                   size_t count,
+                                   double *quaternions);
+
+/// Takes a body back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_body_free(struct morula_body *body);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_contact_options_init(struct morula_contact_options *options,
+                                    size_t size);
+
+/// The time step that a weighed clump allows.
+///
+/// Parameters: `options` says what is known of its contacts; `timestep` is filled: set its
+/// struct_size first. Units are the caller's, mass by those of the density.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INVALID_ARGUMENT (an option out of its
+/// range, or figures beyond the numbers).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_timestep(const struct morula_body *body,
+                             const struct morula_contact_options *options,
+                             struct morula_timestep *timestep);
+
+/// How many spheres a weighed clump has; at least 1.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_sphere_count(const struct morula_body *body, size_t *count);
+
+/// Copies the spheres, in their order.
+///
+/// Parameters: `frame` is one of MORULA_FRAME_*; `xyzr` has room for `capacity` spheres of four
+/// numbers each: x, y, z and radius (in Fortran an array xyzr(4, n)).
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (the frame); BUFFER_TOO_SMALL (nothing
+/// is written); OUT_OF_MEMORY.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_copy_spheres(const struct morula_body *body,
+                                 int32_t frame,
+                                 size_t capacity,
+                                 double *xyzr);
+
+/// Copies the spheres for a code that reads single precision: each lies within the one it stands
+/// for, so that what was inside before is inside after.
+///
+/// Parameters: as morula_body_copy_spheres().
+/// Returns: as morula_body_copy_spheres(); INVALID_ARGUMENT also for a sphere that single
+/// precision cannot hold.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_copy_spheres_f32(const struct morula_body *body,
+                                     int32_t frame,
+                                     size_t capacity,
+                                     float *xyzr);
+
+/// Copies the mass of each sphere, in their order.
+///
+/// Parameters: `masses` has room for `capacity` numbers.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_copy_masses(const struct morula_body *body,
+                                size_t capacity,
+                                double *masses);
+
+/// Copies the numbers of the spheres whose mass is m_min or m_max, ascending.
+///
+/// Parameters: `spheres` has room for `capacity` numbers, as many as morula_masses.binding says.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_copy_binding(const struct morula_body *body,
+                                 size_t capacity,
+                                 uint32_t *spheres);
+
+/// Mass, centre, inertia and body frame of the whole: what a solver that takes them is given.
+///
+/// Parameters: `moments` is filled: set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_moments(const struct morula_body *body, struct morula_moments *moments);
+
+/// How far the masses of the spheres add up to the body.
+///
+/// Parameters: `masses` is filled: set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_masses(const struct morula_body *body, struct morula_masses *masses);
+
+/// The word for a MORULA_MASSES_* number ("relaxed").
+///
+/// Returns: static text, never NULL ("unknown" for other numbers); do not free it.
+/// Threads: any thread at any time. Never fails.
+const char *morula_masses_status_name(int32_t status);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_export_options_init(struct morula_export_options *options,
+                                   size_t size);
+
+/// Writes a weighed clump as the file or files that a DEM code reads. Each is written under another
+/// name and renamed when all are whole; a device or a link stays what it is.
+///
+/// Parameters: `format` is one of MORULA_EXPORT_*; `options` may be NULL for the defaults; `path`
+/// (UTF-8) names the file, for MORULA_EXPORT_MERCURY the folder.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (an option; a format that has no other
+/// frame); UNSUPPORTED (a clump of one sphere for LAMMPS; a build without file formats); IO (what
+/// the system said, and nothing half-written); STRUCT_SIZE; TOO_LARGE; OUT_OF_MEMORY; INTERNAL.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_write(const struct morula_body *body,
+                          int32_t format,
+                          const struct morula_export_options *options,
+                          const char *path);
+
+/// Weighs a clump and writes it, as morula_body_from_clump() and morula_body_write() do.
+///
+/// Parameters: `masses` and `options` may be NULL for the defaults; the rest as morula_body_write().
+/// Returns: the statuses of both.
+/// Threads: any thread; the clump is only read.
+int32_t morula_clump_write(const struct morula_clump *clump,
+                           const struct morula_mass_options *masses,
+                           int32_t format,
+                           const struct morula_export_options *options,
+                           const char *path);
+
+/// Makes the same files in memory.
+///
+/// Parameters: as morula_body_write().
+/// Returns: as morula_body_write(), but never IO.
+/// Ownership: the body stays the caller's; free *files with morula_files_free(). *files is
+/// written only on success.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_body_export(const struct morula_body *body,
+                           int32_t format,
+                           const struct morula_export_options *options,
+                           struct morula_files **files);
+
+/// How many files there are; at least 1.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_files_count(const struct morula_files *files, size_t *count);
+
+/// Copies what a file's name adds to the path, with its closing NUL: nothing for the file itself, an ending
+/// (".in") for what stands beside it, a path below the folder for the files of a folder.
+///
+/// Parameters: `index` from 0; `text` has room for `capacity` bytes; `length` (may be NULL) becomes
+/// the length without the NUL. With `text` NULL and `capacity` 0 only `length` is written.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is
+/// written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_files_copy_name(const struct morula_files *files,
+                               size_t index,
+                               size_t capacity,
+                               char *text,
+                               size_t *length);
+
+/// How many bytes a file has.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_files_size(const struct morula_files *files, size_t index, size_t *size);
+
+/// Copies the bytes of a file; text has no closing NUL.
+///
+/// Parameters: `bytes` has room for `capacity`.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is
+/// written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_files_copy_bytes(const struct morula_files *files,
+                                size_t index,
+                                size_t capacity,
+                                uint8_t *bytes);
+
+/// Takes the files back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_files_free(struct morula_files *files);
 
 #ifdef __cplusplus
 }  // extern "C"

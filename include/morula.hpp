@@ -55,6 +55,8 @@ struct Free {
   void operator()(morula_shape *p) const noexcept { morula_shape_free(p); }
   void operator()(morula_solid *p) const noexcept { morula_solid_free(p); }
   void operator()(morula_clump *p) const noexcept { morula_clump_free(p); }
+  void operator()(morula_body *p) const noexcept { morula_body_free(p); }
+  void operator()(morula_files *p) const noexcept { morula_files_free(p); }
 };
 template <class T>
 using Handle = std::unique_ptr<T, Free>;
@@ -556,6 +558,144 @@ class Clump {
   }
   detail::Handle<morula_clump> handle_;
 };
+
+/// morula_mass_options with the defaults.
+struct MassOptions : morula_mass_options {
+  MassOptions() : morula_mass_options(detail::defaults(morula_mass_options_init)) {}
+};
+/// morula_contact_options with the defaults.
+struct ContactOptions : morula_contact_options {
+  ContactOptions() : morula_contact_options(detail::defaults(morula_contact_options_init)) {}
+};
+/// morula_export_options with the defaults.
+struct ExportOptions : morula_export_options {
+  ExportOptions() : morula_export_options(detail::defaults(morula_export_options_init)) {}
+};
+
+/// A file of a DEM code: what its name adds to the path, and its bytes.
+struct File {
+  std::string name;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// A weighed clump: spheres with masses, and what a solver takes of the whole.
+class Body {
+ public:
+  explicit Body(const Clump &clump, const MassOptions &options = {}, Progress progress = {})
+      : handle_(detail::made<morula_body>(
+            options, std::move(progress), [&](const auto &o, morula_body **out) {
+              return morula_body_from_clump(clump.get(), &o, out);
+            })) {}
+  /// Spheres that were made elsewhere, in the frame of `solid`, or with NULL their union.
+  explicit Body(const std::vector<Sphere> &spheres, const Solid *solid = nullptr,
+                const MassOptions &options = {}, Progress progress = {}) {
+    std::vector<double> xyzr;
+    for (const auto &s : spheres)
+      xyzr.insert(xyzr.end(), {s.center[0], s.center[1], s.center[2], s.radius});
+    handle_ = detail::made<morula_body>(
+        options, std::move(progress), [&](const auto &o, morula_body **out) {
+          return morula_body_from_spheres(xyzr.data(), spheres.size(),
+                                          solid ? solid->get() : nullptr, &o, out);
+        });
+  }
+
+  std::size_t size() const {
+    std::size_t n = 0;
+    check(morula_body_sphere_count(get(), &n));
+    return n;
+  }
+  /// The spheres in a frame, one of MORULA_FRAME_*.
+  std::vector<Sphere> spheres(std::int32_t frame = MORULA_FRAME_INPUT) const {
+    std::vector<double> xyzr(4 * size());
+    check(morula_body_copy_spheres(get(), frame, xyzr.size() / 4, xyzr.data()));
+    std::vector<Sphere> all;
+    for (std::size_t i = 0; i < xyzr.size(); i += 4)
+      all.push_back({{xyzr[i], xyzr[i + 1], xyzr[i + 2]}, xyzr[i + 3]});
+    return all;
+  }
+  /// x, y, z, r of each for codes of single precision, each within the sphere it stands for.
+  std::vector<float> spheres_f32(std::int32_t frame = MORULA_FRAME_BODY) const {
+    std::vector<float> xyzr(4 * size());
+    check(morula_body_copy_spheres_f32(get(), frame, xyzr.size() / 4, xyzr.data()));
+    return xyzr;
+  }
+  /// The mass of each sphere.
+  std::vector<double> masses() const {
+    std::vector<double> masses(size());
+    check(morula_body_copy_masses(get(), masses.size(), masses.data()));
+    return masses;
+  }
+  /// How far they add up to the body.
+  morula_masses result() const {
+    return detail::filled<morula_masses>(
+        [&](morula_masses *m) { return morula_body_masses(get(), m); });
+  }
+  /// The spheres whose mass is m_min or m_max.
+  std::vector<std::uint32_t> binding() const {
+    std::vector<std::uint32_t> spheres(result().binding);
+    check(morula_body_copy_binding(get(), spheres.size(), spheres.data()));
+    return spheres;
+  }
+  /// Mass, centre, inertia and body frame of the whole.
+  morula_moments moments() const {
+    return detail::filled<morula_moments>(
+        [&](morula_moments *m) { return morula_body_moments(get(), m); });
+  }
+  /// The same body in another size, place, orientation (w, x, y, z) and density (0: its own).
+  Body transform(double scale, const std::array<double, 3> &position = {},
+                 const std::array<double, 4> &quaternion = {1, 0, 0, 0},
+                 double density = 0) const {
+    morula_body *raw = nullptr;
+    check(morula_body_transform(get(), scale, position.data(), quaternion.data(), density, &raw));
+    return Body(detail::Handle<morula_body>(raw));
+  }
+  /// The time step that it allows.
+  morula_timestep timestep(const ContactOptions &contact) const {
+    return detail::filled<morula_timestep>(
+        [&](morula_timestep *t) { return morula_body_timestep(get(), &contact, t); });
+  }
+  /// Writes the file or files of a format, one of MORULA_EXPORT_*.
+  void write(std::int32_t format, const std::string &path,
+             const ExportOptions &options = {}) const {
+    check(morula_body_write(get(), format, &options, path.c_str()));
+  }
+  /// The same in memory.
+  std::vector<File> files(std::int32_t format, const ExportOptions &options = {}) const {
+    morula_files *raw = nullptr;
+    check(morula_body_export(get(), format, &options, &raw));
+    const detail::Handle<morula_files> handle(raw);
+    const auto names = detail::texts(
+        [&](std::size_t *n) { return morula_files_count(raw, n); },
+        [&](std::size_t i, std::size_t capacity, char *to, std::size_t *length) {
+          return morula_files_copy_name(raw, i, capacity, to, length);
+        });
+    std::vector<File> all;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      std::size_t size = 0;
+      check(morula_files_size(raw, i, &size));
+      File file{names[i], std::vector<std::uint8_t>(size)};
+      check(morula_files_copy_bytes(raw, i, size, file.bytes.data()));
+      all.push_back(std::move(file));
+    }
+    return all;
+  }
+  const morula_body *get() const noexcept { return handle_.get(); }
+
+ private:
+  explicit Body(detail::Handle<morula_body> handle) : handle_(std::move(handle)) {}
+  detail::Handle<morula_body> handle_;
+};
+
+/// Rotations (w, x, y, z) drawn evenly from all: the same for the same seed.
+inline std::vector<std::array<double, 4>> random_orientations(std::uint64_t seed,
+                                                              std::size_t count) {
+  std::vector<double> flat(4 * count);
+  check(morula_random_orientations(seed, count, flat.data()));
+  std::vector<std::array<double, 4>> all;
+  for (std::size_t i = 0; i < flat.size(); i += 4)
+    all.push_back({flat[i], flat[i + 1], flat[i + 2], flat[i + 3]});
+  return all;
+}
 
 }  // namespace morula
 

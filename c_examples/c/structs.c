@@ -26,6 +26,11 @@ int main(void) {
   CHECK(morula_sizeof(MORULA_STRUCT_OVERLAP) == sizeof(morula_overlap));
   CHECK(morula_sizeof(MORULA_STRUCT_SURFACE) == sizeof(morula_surface));
   CHECK(morula_sizeof(MORULA_STRUCT_COUNTERS) == sizeof(morula_counters));
+  CHECK(morula_sizeof(MORULA_STRUCT_MASS_OPTIONS) == sizeof(morula_mass_options));
+  CHECK(morula_sizeof(MORULA_STRUCT_MASSES) == sizeof(morula_masses));
+  CHECK(morula_sizeof(MORULA_STRUCT_CONTACT_OPTIONS) == sizeof(morula_contact_options));
+  CHECK(morula_sizeof(MORULA_STRUCT_TIMESTEP) == sizeof(morula_timestep));
+  CHECK(morula_sizeof(MORULA_STRUCT_EXPORT_OPTIONS) == sizeof(morula_export_options));
   CHECK(morula_sizeof(0) == 0 && morula_sizeof(-1) == 0 && morula_sizeof(1000) == 0);
   ENDS_WITH(morula_import_options, user);
   ENDS_WITH(morula_file_options, reserved);

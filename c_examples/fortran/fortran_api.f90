@@ -59,6 +59,11 @@ contains
     type(morula_overlap) :: overlap
     type(morula_surface) :: surface
     type(morula_counters) :: counters
+    type(morula_mass_options) :: mass_options
+    type(morula_masses) :: masses
+    type(morula_contact_options) :: contact_options
+    type(morula_timestep) :: timestep
+    type(morula_export_options) :: export_options
     call same_size(MORULA_STRUCT_IMPORT_OPTIONS, c_sizeof(import_options))
     call same_size(MORULA_STRUCT_FILE_OPTIONS, c_sizeof(file_options))
     call same_size(MORULA_STRUCT_SOLID_OPTIONS, c_sizeof(solid_options))
@@ -68,7 +73,12 @@ contains
     call same_size(MORULA_STRUCT_OVERLAP, c_sizeof(overlap))
     call same_size(MORULA_STRUCT_SURFACE, c_sizeof(surface))
     call same_size(MORULA_STRUCT_COUNTERS, c_sizeof(counters))
-    call check(morula_sizeof(MORULA_STRUCT_COUNTERS + 1) == 0, 'every struct is compared')
+    call same_size(MORULA_STRUCT_MASS_OPTIONS, c_sizeof(mass_options))
+    call same_size(MORULA_STRUCT_MASSES, c_sizeof(masses))
+    call same_size(MORULA_STRUCT_CONTACT_OPTIONS, c_sizeof(contact_options))
+    call same_size(MORULA_STRUCT_TIMESTEP, c_sizeof(timestep))
+    call same_size(MORULA_STRUCT_EXPORT_OPTIONS, c_sizeof(export_options))
+    call check(morula_sizeof(MORULA_STRUCT_EXPORT_OPTIONS + 1) == 0, 'every struct is compared')
   end subroutine sizes
 
   subroutine same_size(which, ours)

@@ -18,6 +18,16 @@ pub const MORULA_STRUCT_OVERLAP: i32 = 7;
 pub const MORULA_STRUCT_SURFACE: i32 = 8;
 /// morula_counters, for morula_sizeof().
 pub const MORULA_STRUCT_COUNTERS: i32 = 9;
+/// morula_mass_options, for morula_sizeof().
+pub const MORULA_STRUCT_MASS_OPTIONS: i32 = 10;
+/// morula_masses, for morula_sizeof().
+pub const MORULA_STRUCT_MASSES: i32 = 11;
+/// morula_contact_options, for morula_sizeof().
+pub const MORULA_STRUCT_CONTACT_OPTIONS: i32 = 12;
+/// morula_timestep, for morula_sizeof().
+pub const MORULA_STRUCT_TIMESTEP: i32 = 13;
+/// morula_export_options, for morula_sizeof().
+pub const MORULA_STRUCT_EXPORT_OPTIONS: i32 = 14;
 
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 pub const MORULA_BODIES_REFUSE: i32 = 0;
@@ -151,3 +161,58 @@ pub const MORULA_STOPPED_CANCELLED: i32 = 4;
 pub const MORULA_STOPPED_EXHAUSTED: i32 = 5;
 /// The coverage asked for was reached.
 pub const MORULA_STOPPED_COVERAGE: i32 = 6;
+
+/// The mass, centre and inertia of the true shape, mesh or voxels (the default).
+pub const MORULA_TARGET_SOLID: i32 = 0;
+/// Those of the union of the spheres.
+pub const MORULA_TARGET_UNION: i32 = 1;
+
+/// Masses with the least spread from each sphere's share of the union's volume (the default).
+pub const MORULA_OBJECTIVE_EVEN: i32 = 0;
+/// Masses of which the least is greatest.
+pub const MORULA_OBJECTIVE_MAX_MIN: i32 = 1;
+/// Masses of which the last is greatest.
+pub const MORULA_OBJECTIVE_MAX_LAST: i32 = 2;
+
+/// Where no masses have the centre of the body: fail with NO_MASSES (the default).
+pub const MORULA_INFEASIBLE_REFUSE: i32 = 0;
+/// Where no masses have the centre of the body: keep their sum, with the least error of the rest.
+pub const MORULA_INFEASIBLE_LEAST_ERROR: i32 = 1;
+
+/// Masses that meet all ten equations: mass, centre and inertia.
+pub const MORULA_MASSES_EXACT: i32 = 0;
+/// Masses that meet mass and centre; the inertia has the least error that they allow.
+pub const MORULA_MASSES_RELAXED: i32 = 1;
+/// Masses that meet the mass alone; centre and inertia have the least error.
+pub const MORULA_MASSES_MASS_ONLY: i32 = 2;
+
+/// MercuryDPM: a folder with Clump/Clump.txt and Inertia/Mass.txt, TOI.txt, PD.txt.
+pub const MORULA_EXPORT_MERCURY: i32 = 0;
+/// LAMMPS: a molecule template.
+pub const MORULA_EXPORT_LAMMPS: i32 = 1;
+/// LAMMPS: the infile of fix rigid/small.
+pub const MORULA_EXPORT_LAMMPS_RIGID: i32 = 2;
+/// LIGGGHTS: the spheres of fix particletemplate/multisphere, and that command beside it (.in).
+pub const MORULA_EXPORT_LIGGGHTS: i32 = 3;
+/// YADE: a Python module.
+pub const MORULA_EXPORT_YADE: i32 = 4;
+/// Chrono DEM-Engine: the spheres of LoadClumpType, with its numbers as comments.
+pub const MORULA_EXPORT_DEME: i32 = 5;
+/// MFiX: gsp_config.csv of glued-sphere particles.
+pub const MORULA_EXPORT_MFIX: i32 = 6;
+/// Kratos: .clu.
+pub const MORULA_EXPORT_KRATOS: i32 = 7;
+/// PFC: a command file that makes a clump template.
+pub const MORULA_EXPORT_PFC: i32 = 8;
+/// EDEM: a table of spheres, to be pasted.
+pub const MORULA_EXPORT_EDEM: i32 = 9;
+/// A table with the header x,y,z,r,mass.
+pub const MORULA_EXPORT_CSV: i32 = 10;
+/// The whole record as JSON.
+pub const MORULA_EXPORT_JSON: i32 = 11;
+/// VTK: points with radii and masses.
+pub const MORULA_EXPORT_VTP: i32 = 12;
+/// The surface of the spheres, PLY.
+pub const MORULA_EXPORT_PLY: i32 = 13;
+/// The surface of the spheres, STL.
+pub const MORULA_EXPORT_STL: i32 = 14;

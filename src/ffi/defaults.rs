@@ -2,6 +2,7 @@
 //! had in the first release.
 
 use super::choices::*;
+use super::mass_structs::*;
 use super::options::Versioned;
 use super::structs::*;
 
@@ -110,6 +111,44 @@ versioned!(
         symmetry_planes: std::ptr::null(),
     }
 );
+versioned!(
+    morula_mass_options, 64;
+    morula_mass_options {
+        struct_size: size_of::<Self>(),
+        density: 1.0,
+        m_min: -1.0,
+        m_max: 0.0,
+        target: MORULA_TARGET_SOLID,
+        objective: MORULA_OBJECTIVE_EVEN,
+        infeasible: MORULA_INFEASIBLE_REFUSE,
+        threads: 1,
+        progress: None,
+        user: std::ptr::null_mut(),
+    }
+);
+versioned!(
+    morula_contact_options, 48;
+    morula_contact_options {
+        struct_size: size_of::<Self>(),
+        stiffness: 0.0,
+        young: 0.0,
+        poisson: 0.3,
+        speed: 1.0,
+        contacts: 1,
+        reserved: 0,
+    }
+);
+versioned!(
+    morula_export_options, 40;
+    morula_export_options {
+        struct_size: size_of::<Self>(),
+        length: 1.0,
+        mass: 1.0,
+        placed: 0,
+        facets: 3,
+        name: std::ptr::null(),
+    }
+);
 /// All-zero structs: every field of these is a number.
 macro_rules! filled {
     ($($name:ident $first:expr),*) => {$(
@@ -118,7 +157,7 @@ macro_rules! filled {
 }
 filled!(
     morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 64,
-    morula_counters 112
+    morula_counters 112, morula_masses 80, morula_timestep 56
 );
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -141,5 +180,10 @@ mod tests {
         listed::<morula_overlap>();
         listed::<morula_surface>();
         listed::<morula_counters>();
+        listed::<morula_mass_options>();
+        listed::<morula_masses>();
+        listed::<morula_contact_options>();
+        listed::<morula_timestep>();
+        listed::<morula_export_options>();
     }
 }

@@ -14,15 +14,19 @@
 // A C function has no builder to hide its parameters in.
 #![allow(clippy::too_many_arguments)]
 
+mod body;
+mod body_read;
 mod callbacks;
 mod choices;
 mod clump;
 mod clump_read;
 mod clumps;
 mod defaults;
+mod export;
 mod fenv;
 mod file;
 mod guard;
+mod mass_structs;
 mod options;
 mod primitive;
 mod shape;
@@ -34,12 +38,16 @@ mod structs;
 mod tests;
 mod voxels;
 
+pub use body::*;
+pub use body_read::*;
 pub use callbacks::*;
 pub use choices::*;
 pub use clump::*;
 pub use clump_read::*;
 pub use clumps::*;
+pub use export::*;
 pub use file::*;
+pub use mass_structs::*;
 pub use primitive::*;
 pub use shape::*;
 pub use silhouettes::*;

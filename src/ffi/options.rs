@@ -7,6 +7,7 @@
 //! does not know are zero.
 
 use super::choices::*;
+use super::mass_structs::*;
 use super::structs::*;
 use crate::error::{Error, Result};
 
@@ -111,6 +112,11 @@ pub(super) fn size_of_struct(which: i32) -> usize {
         MORULA_STRUCT_OVERLAP => size_of::<morula_overlap>(),
         MORULA_STRUCT_SURFACE => size_of::<morula_surface>(),
         MORULA_STRUCT_COUNTERS => size_of::<morula_counters>(),
+        MORULA_STRUCT_MASS_OPTIONS => size_of::<morula_mass_options>(),
+        MORULA_STRUCT_MASSES => size_of::<morula_masses>(),
+        MORULA_STRUCT_CONTACT_OPTIONS => size_of::<morula_contact_options>(),
+        MORULA_STRUCT_TIMESTEP => size_of::<morula_timestep>(),
+        MORULA_STRUCT_EXPORT_OPTIONS => size_of::<morula_export_options>(),
         _ => 0,
     }
 }

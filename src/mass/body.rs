@@ -77,7 +77,7 @@ impl Body {
         Body::with_frame(moments, PrincipalFrame::of_rounded(&moments.inertia, noise), density)
     }
 
-    fn with_frame(m: &Moments, frame: PrincipalFrame, density: f64) -> Result<Body> {
+    pub(crate) fn with_frame(m: &Moments, frame: PrincipalFrame, density: f64) -> Result<Body> {
         if !density.is_finite() {
             return Err(Error::NotFinite(format!("the density is {density}")));
         }

@@ -27,7 +27,7 @@ fn published_clumps_read_and_some_state_wrong_volumes() {
         // (columns at three finenesses say 8084.7, as the arcs do).
         let most = if cells[1] == "500" { 8e-3 } else { 1e-3 };
         assert!((volume / row[4] - 1.0).abs() < most, "{}: {volume} {}", cells[0], row[4]);
-        if let Some(stated) = cells[6].parse::<f64>().ok() {
+        if let Ok(stated) = cells[6].parse::<f64>() {
             println!("{}: union {volume:.6e}, stated {stated:.6e}", cells[0]);
             if (stated / volume - 1.0).abs() > 0.02 {
                 wrong.push(cells[0].rsplit('/').next().unwrap());
