@@ -8,8 +8,9 @@ use crate::math::Sphere;
 /// was inside before is inside after. Centres are rounded to the nearest, radii down, and less by
 /// as much as the centre moved: of spheres in the body frame about 1e-7 of the clump's size.
 ///
-/// Refused: what [`check`]s refuse; a sphere that single precision cannot hold (beyond 3e38, or
-/// so small or so far from the origin that no radius is left).
+/// Refused: no sphere, a sphere that is not finite or has no radius; a sphere that single
+/// precision cannot hold (beyond 3e38, or so small or so far from the origin that no radius is
+/// left).
 pub fn single_precision(spheres: &[Sphere]) -> Result<Vec<[f32; 4]>> {
     check(spheres)?;
     let mut out = reserve("spheres", spheres.len())?;
