@@ -83,7 +83,7 @@ for path in files:
         if found is None:
             row.append(spheres)
             continue
-        r = found["mass_residuals"]
+        r = {key: found[f"{key}_residual"] for key in ("mass", "centre", "inertia")}
         greatest = max(r["mass"], r["centre"], r["inertia"])
         is_exact = found["mass_status"] == "exact"
         exact[n] += is_exact

@@ -82,7 +82,7 @@ fn the_keys_of_json_are_these() {
         keys(&masses),
         expected(format!(
             "{figures} density mass centre inertia principal_moments masses mass_status \
-             mass_residuals mass_spread min_mass largest_min_mass binding"
+             mass_residual centre_residual inertia_residual mass_spread min_mass largest_min_mass binding"
         ))
     );
     // The spheres go where they are asked to go, once.

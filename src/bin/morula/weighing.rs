@@ -87,7 +87,9 @@ pub fn keys(masses: &Masses) -> Map<String, Value> {
     let all = json!({
         "masses": masses.masses,
         "mass_status": masses.status.name(),
-        "mass_residuals": { "mass": r.mass, "centre": r.center, "inertia": r.inertia },
+        "mass_residual": r.mass,
+        "centre_residual": r.center,
+        "inertia_residual": r.inertia,
         "mass_spread": masses.spread,
         "min_mass": masses.m_min,
         "largest_min_mass": masses.largest_m_min,
