@@ -1,10 +1,9 @@
 //! `morula export`: a clump in, the files of a DEM code out.
 
-use crate::clump::Frame;
 use crate::fail::{About, Done, Fail};
-use crate::given;
+use crate::given::Given;
+use crate::input;
 use crate::input::parse::{positive, whole};
-use crate::input::{self, Fineness, Reading};
 use crate::progress::Bar;
 use crate::weighing::Weighing;
 use crate::write;
@@ -48,21 +47,10 @@ pub struct Args {
     /// Facets of each sphere of ply and stl: 20 · 4^N triangles, N at most 6
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole::<u32>)]
     facets: u32,
-    /// Frame that the clump's spheres are given in [default: what the file says, else input]
-    #[arg(long, value_enum)]
-    frame: Option<Frame>,
-    /// Threads; 0: all cores
-    #[arg(long, default_value_t = 0, value_parser = whole::<usize>)]
-    threads: usize,
-    /// No progress bar
-    #[arg(short, long)]
-    quiet: bool,
     #[command(flatten)]
     weighing: Weighing,
     #[command(flatten)]
-    fineness: Fineness,
-    #[command(flatten)]
-    reading: Reading,
+    given: Given,
 }
 
 /// A format by the library's name for it.
@@ -97,18 +85,16 @@ pub fn run(args: &Args) -> Done {
             "a format may have several files: -o - is no place for them".into(),
         ));
     }
-    let bar = Bar::new("export", args.quiet);
-    let run = bar.attach(Run::new(args.threads).about("")?);
-    let (mut template, frame) = given::clump(&args.clump, args.frame)?;
+    let bar = Bar::new("export", args.given.quiet);
+    let run = bar.attach(Run::new(args.given.threads).about("")?);
+    let (mut template, frame) = args.given.clump(&args.clump)?;
     let body = match &args.target {
         Some(path) => {
-            let reading = (&args.reading, &args.fineness);
-            let (_, solid) = given::target(path, reading, (&mut template, frame), &run)?;
+            let (_, solid) = args.given.target(path, (&mut template, frame), &run)?;
             Body::of_solid(&solid, args.density).about(path)?
         }
         None => {
-            args.reading.unread()?;
-            args.fineness.unread()?;
+            args.given.unread()?;
             Body::of_union(&template.spheres, args.density, &run).about(&args.clump)?
         }
     };
@@ -126,7 +112,7 @@ pub fn run(args: &Args) -> Done {
     let files = files(&record, args.to.0, &options).about(&args.clump)?;
     drop(bar);
     save(&files, Path::new(&args.output)).about("")?;
-    if args.quiet {
+    if args.given.quiet {
         return Ok(());
     }
     write::to_terminal(|out| {

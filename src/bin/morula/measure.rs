@@ -1,11 +1,12 @@
 //! `morula measure`: what a clump is that a file holds, alone or against its target.
 
-use crate::clump::{Frame, equivalent_diameter};
+use crate::clump::equivalent_diameter;
 use crate::fail::{About, Done};
+use crate::given::Given;
+use crate::input;
 use crate::input::parse::{positive, whole};
-use crate::input::{self, Fineness, Reading};
 use crate::progress::Bar;
-use crate::{figures, given, weighing, write};
+use crate::{figures, weighing, write};
 use morula::Run;
 use morula::error::count;
 use morula::mass::{Body, inertia_error, union_moments};
@@ -30,33 +31,21 @@ pub struct Args {
     /// Columns along each of the two sampled axes of the quality figures, 8 to 8192 [default: 256]
     #[arg(long, value_name = "N", value_parser = whole::<usize>, requires = "target")]
     columns: Option<usize>,
-    /// Frame that the clump's spheres are given in [default: what the file says, else input]
-    #[arg(long, value_enum)]
-    frame: Option<Frame>,
-    /// Threads; 0: all cores
-    #[arg(long, default_value_t = 0, value_parser = whole::<usize>)]
-    threads: usize,
-    /// No progress bar
-    #[arg(short, long)]
-    quiet: bool,
     #[command(flatten)]
-    fineness: Fineness,
-    #[command(flatten)]
-    reading: Reading,
+    given: Given,
 }
 
 pub fn run(args: &Args) -> Done {
-    let bar = Bar::new("measure", args.quiet);
-    let run = bar.attach(Run::new(args.threads).about("")?);
-    let (mut template, frame) = given::clump(&args.clump, args.frame)?;
+    let bar = Bar::new("measure", args.given.quiet);
+    let run = bar.attach(Run::new(args.given.threads).about("")?);
+    let (mut template, frame) = args.given.clump(&args.clump)?;
     let mut map = serde_json::Map::new();
     if let Some(path) = &args.target {
-        let reading = (&args.reading, &args.fineness);
-        let (shape, solid) = given::target(path, reading, (&mut template, frame), &run)?;
+        let (shape, solid) = args.given.target(path, (&mut template, frame), &run)?;
         let mut options = QualityOptions::default();
         options.columns = args.columns.unwrap_or(options.columns);
         let q = quality(&solid, &template.spheres, &options, &run).about(&args.clump)?;
-        input::warn(&shape, args.quiet);
+        input::warn(&shape, args.given.quiet);
         map.extend(figures::quality(Some(&q), Some(&q)));
         let union = union_moments(&template.spheres, &run).about(&args.clump)?;
         let moments = solid.moments();
@@ -64,8 +53,7 @@ pub fn run(args: &Args) -> Done {
         map.insert("volume".into(), moments.volume.into());
         map.insert("equivalent_diameter".into(), equivalent_diameter(moments.volume).into());
     } else {
-        args.reading.unread()?;
-        args.fineness.unread()?;
+        args.given.unread()?;
     }
     let spheres = &template.spheres;
     let union = union_moments(spheres, &run).about(&args.clump)?;

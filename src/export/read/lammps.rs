@@ -47,7 +47,7 @@ pub(super) fn parse(text: &str) -> Result<Template> {
         let complete = rows.len() == count && (1..).zip(rows.iter()).all(|(k, r)| k == r.0);
         if needed && !complete {
             return Err(Error::Format(format!(
-                "{} has {} rows, not one for each of {count} atoms",
+                "{} has {} rows, not one for each of the atoms 1 to {count}",
                 SECTIONS[section],
                 rows.len()
             )));

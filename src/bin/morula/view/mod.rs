@@ -12,11 +12,11 @@ mod section;
 pub mod shade;
 pub mod surface;
 
-use crate::clump::{Frame, equivalent_diameter};
+use crate::clump::equivalent_diameter;
 use crate::fail::{About, Done, Fail};
-use crate::given;
-use crate::input::parse::{positive, whole};
-use crate::input::{self, Fineness, Reading};
+use crate::given::Given;
+use crate::input;
+use crate::input::parse::positive;
 use crate::progress::Bar;
 use crate::write;
 use buffer::Buffer;
@@ -52,19 +52,8 @@ pub struct Args {
     /// End of the colour scale, in percent of the equivalent diameter [default: what fits]
     #[arg(long, value_name = "PERCENT", value_parser = positive)]
     scale: Option<f64>,
-    /// Frame that the clump's spheres are given in [default: what a JSON clump says, else input]
-    #[arg(long, value_enum)]
-    frame: Option<Frame>,
-    /// Threads; 0: all cores
-    #[arg(long, default_value_t = 0, value_parser = whole::<usize>)]
-    threads: usize,
-    /// No progress bar
-    #[arg(short, long)]
-    quiet: bool,
     #[command(flatten)]
-    fineness: Fineness,
-    #[command(flatten)]
-    reading: Reading,
+    given: Given,
 }
 
 pub fn run(args: &Args) -> Done {
@@ -75,17 +64,16 @@ pub fn run(args: &Args) -> Done {
     if extension.is_some_and(|e| !e.eq_ignore_ascii_case("png")) {
         return Err(Fail::Usage(format!("{} is no name for a PNG picture", args.output)));
     }
-    let bar = Bar::new("view", args.quiet);
-    let run = bar.attach(Run::new(args.threads).about("")?);
-    let (mut template, frame) = given::clump(&args.clump, args.frame)?;
-    let reading = (&args.reading, &args.fineness);
-    let (shape, solid) = given::target(&args.input, reading, (&mut template, frame), &run)?;
+    let bar = Bar::new("view", args.given.quiet);
+    let run = bar.attach(Run::new(args.given.threads).about("")?);
+    let (mut template, frame) = args.given.clump(&args.clump)?;
+    let (shape, solid) = args.given.target(&args.input, (&mut template, frame), &run)?;
     let spheres = template.spheres;
     let measured =
         quality(&solid, &spheres, &QualityOptions::default(), &run).about(&args.clump)?;
     let canvas = picture(args, &solid, &spheres, &measured, &run).about(&args.output)?;
     drop(bar);
-    input::warn(&shape, args.quiet);
+    input::warn(&shape, args.given.quiet);
     write::to(&args.output, |out| canvas.write_png(out))
 }
 
