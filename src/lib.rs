@@ -5,7 +5,7 @@
 //! [`shape`] (what the user hands in) → [`solid`] (signed distance and exact
 //! moments) → [`measure`] (how far a clump is from its solid) → [`clump`] (the
 //! result) → [`generate`] (the methods that make it) and [`mass`] (what a solver
-//! takes of it) → `export` (files that DEM codes read; with the feature `io`). A
+//! takes of it) → [`fragment`] (what a solid breaks into) → `export` (files that DEM codes read; with the feature `io`). A
 //! module imports only from those before it, and `mass` not from `generate`.
 //! [`ffi`] is the C ABI and the only `unsafe`.
 //!
@@ -17,6 +17,7 @@ pub mod error;
 #[cfg(feature = "io")]
 pub mod export;
 pub mod ffi;
+pub mod fragment;
 pub mod generate;
 pub mod mass;
 pub mod math;
