@@ -238,7 +238,8 @@ fn the_command_line_does_without_the_c_border() {
 
 #[test]
 fn one_file_names_each_borrowed_engine() {
-    for (krate, home) in [("rayon", "run"), ("clarabel", "mass/cone")] {
+    for (krate, home) in [("parry3d", "solid/nearest"), ("rayon", "run"), ("clarabel", "mass/cone")]
+    {
         for (name, text) in sources() {
             if !name.starts_with(home) {
                 let used = text.lines().any(|l| {

@@ -174,6 +174,9 @@ fn checked(faces: usize) -> Result<u32> {
 }
 
 #[cfg(test)]
+mod parry_tests;
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
