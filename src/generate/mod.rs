@@ -18,6 +18,7 @@ use crate::error::{Error, Result, figure};
 use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
 use crate::solid::Solid;
+pub(crate) use balls::Plane;
 pub use baselines::OVERLAP;
 pub use best::{BestOptions, Effort, HalfSpace, Symmetry};
 pub use cover::CoverOptions;
