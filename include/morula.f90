@@ -152,6 +152,8 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_EXPORT_VTP = 12_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EXPORT_PLY = 13_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EXPORT_STL = 14_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_PRECISION_F64 = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_PRECISION_F32 = 1_c_int32_t
 
   ! ---- structs of morula.h; fill options with the _init functions ----
 
@@ -375,6 +377,8 @@ module morula
     integer(c_int32_t) :: placed = 0_c_int32_t
     integer(c_int32_t) :: facets = 0_c_int32_t
     type(c_ptr) :: name = c_null_ptr
+    integer(c_int32_t) :: precision = 0_c_int32_t
+    integer(c_int32_t) :: reserved = 0_c_int32_t
   end type morula_export_options
 
   ! ---- functions of morula.h ----
@@ -402,6 +406,7 @@ module morula
   public :: morula_body_copy_spheres, morula_body_copy_spheres_f32, morula_body_copy_masses
   public :: morula_body_copy_binding, morula_body_moments, morula_body_masses
   public :: morula_masses_status_name, morula_export_options_init, morula_body_write
+  public :: morula_clump_transform, morula_clump_timestep
   public :: morula_clump_write, morula_body_export, morula_files_count, morula_files_copy_name
   public :: morula_files_size, morula_files_copy_bytes, morula_files_free
   public :: morula_clump_sphere_count, morula_clump_copy_spheres, morula_clump_stopped
@@ -899,6 +904,17 @@ module morula
       type(c_ptr), intent(inout) :: placed
       integer(c_int32_t) :: r
     end function morula_body_transform
+    function morula_clump_transform(clump, masses, scale, position, quaternion, &
+        placed) bind(c) result(r)
+      import
+      type(c_ptr), value :: clump
+      type(morula_mass_options), intent(in), optional :: masses
+      real(c_double), value :: scale
+      real(c_double), intent(in), optional :: position(*)
+      real(c_double), intent(in), optional :: quaternion(*)
+      type(c_ptr), intent(inout) :: placed
+      integer(c_int32_t) :: r
+    end function morula_clump_transform
     function morula_random_orientations(seed, count, quaternions) bind(c) result(r)
       import
       integer(c_int64_t), value :: seed
@@ -923,6 +939,14 @@ module morula
       type(morula_timestep), intent(inout) :: timestep
       integer(c_int32_t) :: r
     end function morula_body_timestep
+    function morula_clump_timestep(clump, masses, options, timestep) bind(c) result(r)
+      import
+      type(c_ptr), value :: clump
+      type(morula_mass_options), intent(in), optional :: masses
+      type(morula_contact_options), intent(in) :: options
+      type(morula_timestep), intent(inout) :: timestep
+      integer(c_int32_t) :: r
+    end function morula_clump_timestep
     function morula_body_sphere_count(body, count) bind(c) result(r)
       import
       type(c_ptr), value :: body

@@ -411,6 +411,12 @@
 /// The surface of the spheres, STL.
 #define MORULA_EXPORT_STL 14
 
+/// Coordinates and radii with all digits of double precision (the default).
+#define MORULA_PRECISION_F64 0
+
+/// Coordinates and radii that single precision holds, each sphere within the one it stands for.
+#define MORULA_PRECISION_F32 1
+
 /// A weighed clump: its spheres with a mass each, such that all of them, as solid spheres, add up to the
 /// mass, centre and inertia of the body. Made by morula_body_from_clump(),
 /// morula_body_from_spheres() or morula_body_transform(), freed by morula_body_free().
@@ -899,7 +905,8 @@ typedef struct morula_masses {
   /// sphere's share s of the union; else 0.
   double spread;
   /// By how much the trace of the inertia of the spheres' union is less than that of the target
-  /// at one density, over the latter; 0 where the union is the target.
+  /// at one density, over the latter; 0 where the union is the target. A target shrunk to a
+  /// coverage c would lack 1 - c^(5/3).
   double union_inertia_error;
   /// One of MORULA_MASSES_*.
   int32_t status;
@@ -924,6 +931,11 @@ typedef struct morula_export_options {
   uint32_t facets;
   /// Name of the template (UTF-8); NULL: "clump".
   const char *name;
+  /// One of MORULA_PRECISION_*: MORULA_PRECISION_F32 writes centres and radii that single
+  /// precision holds, each sphere within the one that it stands for. Default MORULA_PRECISION_F64.
+  int32_t precision;
+  /// Must be 0.
+  int32_t reserved;
 } morula_export_options;
 
 #ifdef __cplusplus
@@ -1729,6 +1741,22 @@ int32_t morula_body_transform(const struct morula_body *body,
                               double density,
                               struct morula_body **placed);
 
+/// Weighs a clump and puts it in another size, place and orientation, as morula_body_from_clump()
+/// and morula_body_transform() do. For many particles of one template weigh it once and use those.
+///
+/// Parameters: `masses` may be NULL for the defaults; its density is that of the particle; the rest as
+/// morula_body_transform().
+/// Returns: the statuses of both.
+/// Ownership: the clump stays the caller's; free *placed with morula_body_free(). *placed is
+/// written only on success.
+/// Threads: any thread; the clump is only read.
+int32_t morula_clump_transform(const struct morula_clump *clump,
+                               const struct morula_mass_options *masses,
+                               double scale,
+                               const double *position,
+                               const double *quaternion,
+                               struct morula_body **placed);
+
 /// Rotations drawn evenly from all, for the orientations of many particles: the same for the same
 /// seed, and the first ones the same for any count.
 ///
@@ -1761,6 +1789,18 @@ int32_t morula_contact_options_init(struct morula_contact_options *options,
 int32_t morula_body_timestep(const struct morula_body *body,
                              const struct morula_contact_options *options,
                              struct morula_timestep *timestep);
+
+/// Weighs a clump and tells the time step that it allows, as morula_body_from_clump() and
+/// morula_body_timestep() do.
+///
+/// Parameters: `masses` may be NULL for the defaults; `options` and `timestep` as
+/// morula_body_timestep().
+/// Returns: the statuses of both.
+/// Threads: any thread; the clump is only read.
+int32_t morula_clump_timestep(const struct morula_clump *clump,
+                              const struct morula_mass_options *masses,
+                              const struct morula_contact_options *options,
+                              struct morula_timestep *timestep);
 
 /// How many spheres a weighed clump has; at least 1.
 ///
@@ -1844,7 +1884,7 @@ int32_t morula_export_options_init(struct morula_export_options *options,
 /// Parameters: `format` is one of MORULA_EXPORT_*; `options` may be NULL for the defaults; `path`
 /// (UTF-8) names the file, for MORULA_EXPORT_MERCURY the folder.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (an option; a format that has no other
-/// frame); UNSUPPORTED (a clump of one sphere for LAMMPS; a build without file formats); IO (what
+/// frame; spheres that single precision cannot hold); UNSUPPORTED (a clump of one sphere for LAMMPS; a build without file formats); IO (what
 /// the system said, and nothing half-written); STRUCT_SIZE; TOO_LARGE; OUT_OF_MEMORY; INTERNAL.
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_body_write(const struct morula_body *body,

@@ -138,6 +138,16 @@ int main(void) {
   OK(morula_body_copy_masses(placed, SPHERES, others));
   CHECK(memcmp(masses, others, sizeof masses) == 0);
   morula_body_free(placed);
+  /* Weighed and placed in one call: the same bytes. */
+  morula_moments q;
+  q.struct_size = sizeof q;
+  OK(morula_body_transform(body, 0.5, place, turns, 0, &placed));
+  OK(morula_body_moments(placed, &p));
+  morula_body_free(placed);
+  OK(morula_clump_transform(clump, &options, 0.5, place, turns, &placed));
+  OK(morula_body_moments(placed, &q));
+  CHECK(memcmp(&p, &q, sizeof p) == 0);
+  morula_body_free(placed);
 
   /* Single precision: inside stays inside. */
   float single[4 * SPHERES];
@@ -165,6 +175,8 @@ int main(void) {
   contact.young = 1e9;
   OK(morula_body_timestep(body, &contact, &stiff));
   CHECK(stiff.rayleigh > 0 && stiff.clump > 0 && stiff.overlap > 0);
+  OK(morula_clump_timestep(clump, &options, &contact, &soft));
+  CHECK(memcmp(&soft, &stiff, sizeof soft) == 0);
 
   /* For LAMMPS: in memory and in a file, the same bytes. */
   morula_export_options export_options;
@@ -200,6 +212,30 @@ int main(void) {
   OK(morula_files_count(files, &count));
   OK(morula_files_copy_name(files, 1, sizeof name, name, NULL));
   CHECK(count == 4 && strcmp(name, "Inertia/Mass.txt") == 0);
+  morula_files_free(files);
+
+  /* A table in single precision holds the spheres that a copy does. */
+  export_options.precision = MORULA_PRECISION_F32;
+  OK(morula_body_export(body, MORULA_EXPORT_CSV, &export_options, &files));
+  OK(morula_files_size(files, 0, &size));
+  char *table = calloc(size + 1, 1);
+  OK(morula_files_copy_bytes(files, 0, size, (uint8_t *)table));
+  morula_files_free(files);
+  char *at = strchr(table, '\n');
+  for (int i = 0; at && i < SPHERES; i++, at = strchr(at + 1, '\n'))
+    for (int k = 0; k < 4; k++) {
+      const double value = strtod(at + 1, &at);
+      CHECK(value == (double)single[4 * i + k]);
+    }
+  CHECK(at != NULL);
+  free(table);
+  files = NULL;
+  export_options.precision = 2;
+  STATUS(morula_body_export(body, MORULA_EXPORT_CSV, &export_options, &files),
+         MORULA_STATUS_INVALID_ARGUMENT);
+  /* Who knows no such field has all digits. */
+  export_options.struct_size = offsetof(morula_export_options, precision);
+  OK(morula_body_export(body, MORULA_EXPORT_CSV, &export_options, &files));
   morula_files_free(files);
 
   /* What cannot be is refused, and nothing is written. */
@@ -245,6 +281,11 @@ int main(void) {
   contact.young = -1;
   STATUS(morula_body_timestep(body, &contact, &soft), MORULA_STATUS_INVALID_ARGUMENT);
   STATUS(morula_body_timestep(body, NULL, &soft), MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_clump_timestep(clump, NULL, NULL, &soft), MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_clump_timestep(NULL, NULL, &contact, &soft), MORULA_STATUS_NULL_POINTER);
+  STATUS(morula_clump_transform(clump, NULL, -1, NULL, NULL, &none),
+         MORULA_STATUS_INVALID_ARGUMENT);
+  STATUS(morula_clump_transform(clump, NULL, 1, NULL, NULL, NULL), MORULA_STATUS_NULL_POINTER);
   CHECK(none == NULL);
   /* Made without moments: its union can be weighed, its target not. */
   morula_clump *bare = NULL;

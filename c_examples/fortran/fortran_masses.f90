@@ -14,11 +14,12 @@ program fortran_masses
   type(morula_export_options) :: export_options
   type(morula_moments) :: m, p
   type(morula_masses) :: result
-  type(morula_timestep) :: step
+  type(morula_timestep) :: step, again
   real(c_double), allocatable :: xyzr(:, :)
   real(c_float), allocatable :: single(:, :)
   integer(c_int32_t), allocatable :: binding(:)
   real(c_double) :: turns(4, 2)
+  type(c_ptr) :: raw
   integer(c_int32_t) :: status
   character(len=40) :: line
   integer :: n, unit
@@ -61,6 +62,13 @@ program fortran_masses
   contact%young = 5e7_c_double
   call body%timestep(contact, step)
   call check(step%clump > 0 .and. step%rayleigh > 0, 'a time step')
+  again%struct_size = c_sizeof(again)
+  call check(morula_clump_timestep(clump%c_handle(), options, contact, again) == MORULA_STATUS_OK &
+    .and. abs(again%clump - step%clump) < 1e-9_c_double * step%clump, 'weighed for a time step')
+  raw = c_null_ptr
+  call check(morula_clump_transform(clump%c_handle(), options, 2.0_c_double, placed=raw) == &
+    MORULA_STATUS_OK .and. c_associated(raw), 'weighed and placed')
+  call morula_body_free(raw)
 
   call body%write(MORULA_EXPORT_LAMMPS, 'fortran_masses.mol')
   open (newunit=unit, file='fortran_masses.mol', status='old', action='read')

@@ -2,22 +2,24 @@
 //! diameter; what of each sphere's surface is free, relative to its square (MFiX uses it for heat).
 //! Neighbours through which heat flows are not told: -1, with no area.
 
-use super::Record;
-use crate::math::Vec3;
+use super::{Record, rounded};
+use crate::error::{Result, collected};
+use crate::math::{Sphere, Vec3};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
 /// Directions by which the free surface of a sphere is told.
 const DIRECTIONS: usize = 1000;
 
-pub(super) fn table(r: &Record) -> String {
+pub(super) fn table(r: &Record, single: bool) -> Result<String> {
     let whole = r.diameter();
     let mut out = String::from(
         "#version = 1\nx,y,z,rel_d,rel_sa,w,e,s,n,t,b,w_na,e_na,s_na,n_na,t_na,b_na,pid\n",
     );
-    for (s, free) in r.spheres.iter().zip(free(r)) {
-        let c = s.center / whole;
-        let d = 2.0 * s.radius / whole;
+    let relative = r.spheres.iter().map(|s| Sphere::new(s.center / whole, s.radius / whole));
+    let relative: Vec<Sphere> = collected("spheres of a file", relative)?;
+    for (s, free) in rounded(&relative, single)?.iter().zip(free(r)) {
+        let (c, d) = (s.center, 2.0 * s.radius);
         let _ = writeln!(
             out,
             "{:?},{:?},{:?},{d:?},{:?},-1,-1,-1,-1,-1,-1,0.0,0.0,0.0,0.0,0.0,0.0,1",
@@ -27,7 +29,7 @@ pub(super) fn table(r: &Record) -> String {
             free * PI * d * d
         );
     }
-    out
+    Ok(out)
 }
 
 /// The part of each sphere's surface that lies in no other.

@@ -29,7 +29,10 @@ pub use surface::{ply, stl};
 pub use table::csv;
 pub use vtp::vtp;
 
-use crate::error::{Error, Result, push};
+use crate::error::{Error, Result, collected, push};
+use crate::mass::single_precision;
+use crate::math::{Sphere, Vec3};
+use std::borrow::Cow;
 
 /// How a file is written.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,11 +47,15 @@ pub struct ExportOptions {
     pub placed: bool,
     /// Facets of a sphere where a surface is written: 20 · 4^`facets` triangles, at most 6.
     pub facets: u32,
+    /// Whether centres and radii are numbers of single precision, each sphere within the one that it
+    /// stands for: for codes that read them so. Masses and moments keep all digits; what the spheres miss of
+    /// them is that of 1e-7 of the clump's size.
+    pub single: bool,
 }
 
 impl Default for ExportOptions {
     fn default() -> Self {
-        ExportOptions { length: 1.0, mass: 1.0, placed: false, facets: 3 }
+        ExportOptions { length: 1.0, mass: 1.0, placed: false, facets: 3, single: false }
     }
 }
 
@@ -82,9 +89,15 @@ pub fn files(record: &Record, format: Format, options: &ExportOptions) -> Result
             format.name()
         )));
     }
-    let r = &record.clone().in_units(options.length, options.mass)?;
+    let mut r = record.clone().in_units(options.length, options.mass)?;
     let placed = options.placed;
-    let spheres = &if options.placed { r.placed()? } else { r.spheres.clone() };
+    let spheres = if placed { r.placed()? } else { r.spheres.clone() };
+    let spheres = &rounded(&spheres, options.single)?;
+    // Those of MFiX are rounded when they are relative.
+    if format != Format::Mfix {
+        r.spheres = rounded(&r.spheres, options.single && !placed)?.into_owned();
+    }
+    let r = &r;
     let masses = &r.masses;
     let texts = match format {
         Format::Mercury => mercury::files(r),
@@ -93,7 +106,7 @@ pub fn files(record: &Record, format: Format, options: &ExportOptions) -> Result
         Format::Liggghts => liggghts::files(r),
         Format::Yade => vec![(Place::At, yade::script(r))],
         Format::Deme => vec![(Place::At, deme::table(r))],
-        Format::Mfix => vec![(Place::At, mfix::table(r))],
+        Format::Mfix => vec![(Place::At, mfix::table(r, options.single)?)],
         Format::Kratos => vec![(Place::At, kratos::cluster(r))],
         Format::Pfc => vec![(Place::At, pfc::template(r))],
         Format::Edem => vec![(Place::At, table::bare(spheres, "\t"))],
@@ -108,6 +121,17 @@ pub fn files(record: &Record, format: Format, options: &ExportOptions) -> Result
         push("files of a format", &mut files, File { place, bytes: text.into_bytes() })?;
     }
     Ok(files)
+}
+
+/// The spheres as they are, or within themselves in single precision.
+fn rounded(spheres: &[Sphere], single: bool) -> Result<Cow<'_, [Sphere]>> {
+    if !single {
+        return Ok(Cow::Borrowed(spheres));
+    }
+    let wide = |&[x, y, z, r]: &[f32; 4]| {
+        Sphere::new(Vec3::new(x.into(), y.into(), z.into()), f64::from(r))
+    };
+    Ok(Cow::Owned(collected("spheres of a file", single_precision(spheres)?.iter().map(wide))?))
 }
 
 fn one(bytes: Vec<u8>) -> Result<Vec<File>> {

@@ -21,9 +21,11 @@ pub fn save(files: &[File], path: &Path) -> Result<()> {
             let mut out = fs::OpenOptions::new().write(true).open(&target).map_err(said)?;
             return out.write_all(&file.bytes).and_then(|()| out.flush()).map_err(said);
         }
-        let part = beside(&target, "part");
-        made.push((part.clone(), target.clone()));
-        let mut out = fs::File::create(&part).map_err(said)?;
+        if target.is_dir() {
+            return Err(Error::Io(format!("{}: a folder has that name", target.display())));
+        }
+        let (part, mut out) = fresh(&target).map_err(said)?;
+        made.push((part, target.clone()));
         out.write_all(&file.bytes).and_then(|()| out.sync_all()).map_err(said)
     });
     let renamed = written.and_then(|()| {
@@ -38,6 +40,20 @@ pub fn save(files: &[File], path: &Path) -> Result<()> {
         });
     }
     renamed
+}
+
+/// A new file beside the path, that no other process has: several may write the same clump.
+fn fresh(path: &Path) -> std::io::Result<(PathBuf, fs::File)> {
+    let mut last = std::io::ErrorKind::AlreadyExists.into();
+    for k in 0..100 {
+        let part = beside(path, &format!("{}-{k}.part", std::process::id()));
+        match fs::OpenOptions::new().write(true).create_new(true).open(&part) {
+            Ok(file) => return Ok((part, file)),
+            Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists => last = e,
+            Err(e) => return Err(e),
+        }
+    }
+    Err(last)
 }
 
 impl Place {

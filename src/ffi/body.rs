@@ -3,15 +3,15 @@
 use super::callbacks::run;
 use super::choices::*;
 use super::clump::morula_clump;
-use super::guard::{borrow, give, guard, require, slice, take};
+use super::guard::{array_or, borrow, check_bytes, copy_out, give, guard, require, slice, take};
 use super::mass_structs::*;
-use super::options::{init, read};
+use super::options::{check, fill, init, read};
 use super::shape::reserved;
 use super::solid::morula_solid;
 use crate::error::{Error, Result, collected, reserve};
 use crate::mass::{
-    Body, Infeasible, MassOptions, Masses, Objective, Placement, correct, inertia_error,
-    random_orientations, union_moments,
+    Body, Contact, ContactOptions, Infeasible, MassOptions, Masses, Objective, Placement, correct,
+    inertia_error, random_orientations, time_step, union_moments,
 };
 use crate::math::{Moments, PrincipalFrame, Sphere, Vec3};
 use crate::run::Run;
@@ -216,27 +216,91 @@ pub unsafe extern "C" fn morula_body_transform(
     guard(|| {
         let from = unsafe { borrow(body, "body")? };
         require(placed, "placed")?;
-        let at = unsafe { super::guard::array_or(position, [0.0; 3], "position")? };
-        let identity = [1.0, 0.0, 0.0, 0.0];
-        let rotation = unsafe { super::guard::array_or(quaternion, identity, "quaternion")? };
-        let to = Placement { scale, rotation, translation: Vec3::from(at) };
+        let to = unsafe { placement(scale, position, quaternion)? };
         let density = if density == 0.0 { from.body.density } else { density };
-        let old = from.body.density;
-        let mut masses = from.masses.clone();
+        let made = from.placed(&to, density)?;
+        unsafe { give(placed, made) };
+        Ok(())
+    })
+}
+
+/// Weighs a clump and puts it in another size, place and orientation, as morula_body_from_clump()
+/// and morula_body_transform() do. For many particles of one template weigh it once and use those.
+///
+/// Parameters: `masses` may be NULL for the defaults; its density is that of the particle; the rest as
+/// morula_body_transform().
+/// Returns: the statuses of both.
+/// Ownership: the clump stays the caller's; free *placed with morula_body_free(). *placed is
+/// written only on success.
+/// Threads: any thread; the clump is only read.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_clump_transform(
+    clump: *const morula_clump,
+    masses: *const morula_mass_options,
+    scale: f64,
+    position: *const f64,
+    quaternion: *const f64,
+    placed: *mut *mut morula_body,
+) -> i32 {
+    guard(|| {
+        require(placed, "placed")?;
+        let to = unsafe { placement(scale, position, quaternion)? };
+        let from = unsafe { weighed(clump, masses)? };
+        let made = from.placed(&to, from.body.density)?;
+        unsafe { give(placed, made) };
+        Ok(())
+    })
+}
+
+unsafe fn placement(scale: f64, position: *const f64, quaternion: *const f64) -> Result<Placement> {
+    let at = unsafe { array_or(position, [0.0; 3], "position")? };
+    let rotation = unsafe { array_or(quaternion, [1.0, 0.0, 0.0, 0.0], "quaternion")? };
+    Ok(Placement { scale, rotation, translation: Vec3::from(at) })
+}
+
+impl morula_body {
+    fn placed(&self, to: &Placement, density: f64) -> Result<morula_body> {
+        let old = self.body.density;
+        let mut masses = self.masses.clone();
         masses.masses = to.masses(&masses.masses, old, density)?;
         masses.m_min = to.masses(&[masses.m_min], old, density)?.into_iter().sum();
         if let Some(least) = masses.largest_m_min {
             masses.largest_m_min = to.masses(&[least], old, density)?.first().copied();
         }
-        let made = morula_body {
-            body: to.body(&from.body, density)?,
-            spheres: to.spheres(&from.spheres)?,
+        Ok(morula_body {
+            body: to.body(&self.body, density)?,
+            spheres: to.spheres(&self.spheres)?,
             masses,
-            lacking: from.lacking,
+            lacking: self.lacking,
+        })
+    }
+
+    unsafe fn timestep(
+        &self,
+        options: *const morula_contact_options,
+        timestep: *mut morula_timestep,
+    ) -> Result<()> {
+        let o = unsafe { read(options)? };
+        reserved("contact", o.reserved as i32)?;
+        let contact = if o.stiffness == 0.0 {
+            Contact::Material { young: o.young, poisson: o.poisson }
+        } else {
+            Contact::Stiffness(o.stiffness)
         };
-        unsafe { give(placed, made) };
-        Ok(())
-    })
+        let asked = ContactOptions { contact, speed: o.speed, contacts: o.contacts };
+        let t = time_step(&self.spheres, &self.masses.masses, &self.body, &asked)?;
+        let value = morula_timestep {
+            struct_size: 0,
+            clump: t.clump,
+            effective_mass: t.effective_mass,
+            stiffness: t.stiffness,
+            rayleigh: t.rayleigh.unwrap_or(0.0),
+            overlap: t.overlap,
+            sphere: t.sphere,
+            reserved: 0,
+        };
+        unsafe { fill(timestep, &value) }
+    }
 }
 
 /// Rotations drawn evenly from all, for the orientations of many particles: the same for the same
@@ -252,11 +316,11 @@ pub unsafe extern "C" fn morula_random_orientations(
     quaternions: *mut f64,
 ) -> i32 {
     guard(|| {
-        super::guard::check_bytes::<[f64; 4]>(count, "quaternions")?;
+        check_bytes::<[f64; 4]>(count, "quaternions")?;
         let drawn = random_orientations(seed, count)?;
         let mut flat = reserve("orientations", count.saturating_mul(4))?;
         flat.extend(drawn.iter().flatten());
-        unsafe { super::guard::copy_out(&flat, flat.len(), quaternions, "quaternions") }
+        unsafe { copy_out(&flat, flat.len(), quaternions, "quaternions") }
     })
 }
 
@@ -296,26 +360,32 @@ pub unsafe extern "C" fn morula_body_timestep(
     guard(|| {
         let of = unsafe { borrow(body, "body")? };
         require(options, "options")?;
-        unsafe { super::options::check(timestep)? };
-        let o = unsafe { read(options)? };
-        reserved("contact", o.reserved as i32)?;
-        let contact = if o.stiffness == 0.0 {
-            crate::mass::Contact::Material { young: o.young, poisson: o.poisson }
-        } else {
-            crate::mass::Contact::Stiffness(o.stiffness)
-        };
-        let asked = crate::mass::ContactOptions { contact, speed: o.speed, contacts: o.contacts };
-        let t = crate::mass::time_step(&of.spheres, &of.masses.masses, &of.body, &asked)?;
-        let value = morula_timestep {
-            struct_size: 0,
-            clump: t.clump,
-            effective_mass: t.effective_mass,
-            stiffness: t.stiffness,
-            rayleigh: t.rayleigh.unwrap_or(0.0),
-            overlap: t.overlap,
-            sphere: t.sphere,
-            reserved: 0,
-        };
-        unsafe { super::options::fill(timestep, &value) }
+        unsafe {
+            check(timestep)?;
+            of.timestep(options, timestep)
+        }
+    })
+}
+
+/// Weighs a clump and tells the time step that it allows, as morula_body_from_clump() and
+/// morula_body_timestep() do.
+///
+/// Parameters: `masses` may be NULL for the defaults; `options` and `timestep` as
+/// morula_body_timestep().
+/// Returns: the statuses of both.
+/// Threads: any thread; the clump is only read.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_clump_timestep(
+    clump: *const morula_clump,
+    masses: *const morula_mass_options,
+    options: *const morula_contact_options,
+    timestep: *mut morula_timestep,
+) -> i32 {
+    guard(|| {
+        require(options, "options")?;
+        unsafe {
+            check(timestep)?;
+            weighed(clump, masses)?.timestep(options, timestep)
+        }
     })
 }

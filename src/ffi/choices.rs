@@ -216,3 +216,8 @@ pub const MORULA_EXPORT_VTP: i32 = 12;
 pub const MORULA_EXPORT_PLY: i32 = 13;
 /// The surface of the spheres, STL.
 pub const MORULA_EXPORT_STL: i32 = 14;
+
+/// Coordinates and radii with all digits of double precision (the default).
+pub const MORULA_PRECISION_F64: i32 = 0;
+/// Coordinates and radii that single precision holds, each sphere within the one it stands for.
+pub const MORULA_PRECISION_F32: i32 = 1;

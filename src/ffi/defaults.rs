@@ -139,7 +139,7 @@ versioned!(
     }
 );
 versioned!(
-    morula_export_options, 40;
+    morula_export_options, 40, added 48;
     morula_export_options {
         struct_size: size_of::<Self>(),
         length: 1.0,
@@ -147,6 +147,8 @@ versioned!(
         placed: 0,
         facets: 3,
         name: std::ptr::null(),
+        precision: MORULA_PRECISION_F64,
+        reserved: 0,
     }
 );
 /// All-zero structs: every field of these is a number.

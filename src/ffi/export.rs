@@ -12,6 +12,8 @@ use super::options::init;
 #[cfg(feature = "io")]
 use super::options::read;
 use super::shape::put;
+#[cfg(feature = "io")]
+use super::shape::reserved;
 use crate::error::{Error, Result};
 use std::ffi::c_char;
 
@@ -58,7 +60,14 @@ unsafe fn made(
     };
     let name = if o.name.is_null() { "clump" } else { unsafe { text(o.name, "name")? } };
     let record = Record::new(name, &body.spheres, &body.masses.masses, &body.body)?;
-    let options = ExportOptions { length: o.length, mass: o.mass, placed, facets: o.facets };
+    let single = match o.precision {
+        MORULA_PRECISION_F64 => false,
+        MORULA_PRECISION_F32 => true,
+        other => return Err(Error::InvalidArgument(format!("precision is {other}, no choice"))),
+    };
+    reserved("export", o.reserved)?;
+    let options =
+        ExportOptions { length: o.length, mass: o.mass, placed, facets: o.facets, single };
     files(&record, format, &options)
 }
 
@@ -86,7 +95,7 @@ pub unsafe extern "C" fn morula_export_options_init(
 /// Parameters: `format` is one of MORULA_EXPORT_*; `options` may be NULL for the defaults; `path`
 /// (UTF-8) names the file, for MORULA_EXPORT_MERCURY the folder.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (an option; a format that has no other
-/// frame); UNSUPPORTED (a clump of one sphere for LAMMPS; a build without file formats); IO (what
+/// frame; spheres that single precision cannot hold); UNSUPPORTED (a clump of one sphere for LAMMPS; a build without file formats); IO (what
 /// the system said, and nothing half-written); STRUCT_SIZE; TOO_LARGE; OUT_OF_MEMORY; INTERNAL.
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]

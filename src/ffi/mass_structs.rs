@@ -57,7 +57,8 @@ pub struct morula_masses {
     /// sphere's share s of the union; else 0.
     pub spread: f64,
     /// By how much the trace of the inertia of the spheres' union is less than that of the target
-    /// at one density, over the latter; 0 where the union is the target.
+    /// at one density, over the latter; 0 where the union is the target. A target shrunk to a
+    /// coverage c would lack 1 - c^(5/3).
     pub union_inertia_error: f64,
     /// One of MORULA_MASSES_*.
     pub status: i32,
@@ -133,4 +134,9 @@ pub struct morula_export_options {
     pub facets: u32,
     /// Name of the template (UTF-8); NULL: "clump".
     pub name: *const c_char,
+    /// One of MORULA_PRECISION_*: MORULA_PRECISION_F32 writes centres and radii that single
+    /// precision holds, each sphere within the one that it stands for. Default MORULA_PRECISION_F64.
+    pub precision: i32,
+    /// Must be 0.
+    pub reserved: i32,
 }

@@ -60,7 +60,8 @@ fn json_is_one_object_with_the_promised_keys() {
 #[test]
 fn the_keys_of_json_are_these() {
     let figures = "n D coverage overshoot protrusion seconds stopped spheres input eta iou \
-         error_bound union_volume volume_error centroid_error moment_errors rms_distance hausdorff \
+         error_bound union_volume volume_error centroid_error moment_errors inertia_error \
+         inertia_error_of_coverage rms_distance hausdorff \
          distance_bound roughness never_exposed plane_contacts note notes volume \
          equivalent_diameter cells frame position quaternion stages peak_bytes";
     let folder = folder("keys");

@@ -2,9 +2,9 @@
 
 use super::body::record;
 use super::{close, folder, numbers};
-use morula::Error;
 use morula::export::{ExportOptions, File, Format, Place, files, save};
 use morula::math::Vec3;
+use morula::{Error, Sphere};
 
 fn text(format: Format, options: &ExportOptions) -> Vec<(Place, String)> {
     let all = files(&record(), format, options).unwrap();
@@ -178,10 +178,23 @@ fn nothing_half_written_has_the_name_asked_for() {
     std::fs::create_dir(folder.join("b.csv")).unwrap();
     save(&[whole(b"x")], &folder.join("b.csv")).unwrap_err();
     // The second file cannot be made: the first keeps what it had.
-    let beside = File { place: Place::Beside("in"), bytes: b"y".to_vec() };
-    std::fs::create_dir(folder.join("a.csv.in.part")).unwrap();
-    save(&[whole(b"third"), beside], &path).unwrap_err();
-    assert_eq!(std::fs::read(&path).unwrap(), b"second");
+    let long: &'static str = "longer_than_names_may_be".repeat(20).leak();
+    for ending in ["in", long] {
+        let beside = File { place: Place::Beside(ending), bytes: b"y".to_vec() };
+        if ending == "in" {
+            std::fs::create_dir(folder.join("a.csv.in")).unwrap();
+        }
+        save(&[whole(b"third"), beside], &path).unwrap_err();
+        assert_eq!(std::fs::read(&path).unwrap(), b"second");
+    }
+    // What another process is writing is left alone, and is no hindrance.
+    let pid = std::process::id();
+    let other = folder.join(format!("a.csv.{pid}-0.part"));
+    std::fs::write(&other, b"half").unwrap();
+    save(&[whole(b"fourth")], &path).unwrap();
+    assert_eq!(std::fs::read(&path).unwrap(), b"fourth");
+    assert_eq!(std::fs::read(&other).unwrap(), b"half");
+    std::fs::remove_file(other).unwrap();
     let left: Vec<String> = std::fs::read_dir(&folder)
         .unwrap()
         .map(|e| e.unwrap().file_name().into_string().unwrap())
@@ -225,6 +238,61 @@ fn links_and_devices_stay_what_they_are() {
         assert!(matches!(e, Error::Io(_)), "{e}");
         assert!(device(full) && folder.join("full.csv").is_symlink());
     }
+}
+
+#[test]
+fn single_precision_holds_the_spheres_and_they_lie_within() {
+    let r = record();
+    let options = ExportOptions { single: true, length: 1e3, ..ExportOptions::default() };
+    let within = |name: &str, found: Vec<[f64; 4]>, spheres: &[Sphere], unit: f64| {
+        assert_eq!(found.len(), spheres.len(), "{name}");
+        for (f, s) in found.iter().zip(spheres) {
+            assert_eq!(*f, f.map(|x| f64::from(x as f32)), "{name}");
+            let (c, radius) = (s.center * unit, s.radius * unit);
+            let out = (Vec3::new(f[0], f[1], f[2]) - c).norm() + f[3] - radius;
+            assert!(out <= 1e-15 * radius && out > -1e-6 * radius, "{name}: {out:e}");
+        }
+    };
+    let four = |rows: Vec<Vec<f64>>| -> Vec<[f64; 4]> {
+        rows.iter().map(|f| [f[0], f[1], f[2], f[3]]).collect()
+    };
+    let first = |format, options: &ExportOptions| text(format, options).swap_remove(0).1;
+    for (format, from, to) in [
+        (Format::Csv, "x,y,z,r,mass", ""),
+        (Format::Deme, "x,y,z,r", "#"),
+        (Format::Kratos, "Begin", "End"),
+        (Format::Yade, "spheres = [", "]"),
+        (Format::Edem, "", ""),
+        (Format::Liggghts, "", ""),
+        (Format::Mercury, "", ""),
+    ] {
+        let all = format!("\n{}", first(format, &options));
+        within(format.name(), four(rows(&all, from, to)), &r.spheres, 1e3);
+    }
+    let pfc = rows(&first(Format::Pfc, &options), "  pebbles", "  volume");
+    let pfc = pfc.iter().map(|f| [f[1], f[2], f[3], f[0]]).collect();
+    within("pfc", pfc, &r.spheres, 1e3);
+    // What they are relative to is not in the file.
+    let mfix = rows(&first(Format::Mfix, &options), "x,y,z,rel_d", "");
+    let mfix = mfix.iter().map(|f| [f[0], f[1], f[2], f[3] / 2.0]).collect();
+    within("mfix", mfix, &r.spheres, 1.0 / r.diameter());
+    // In the caller's frame they are rounded there.
+    let placed = ExportOptions { placed: true, single: true, ..ExportOptions::default() };
+    let spheres = r.placed().unwrap();
+    within("placed", four(rows(&first(Format::Csv, &placed), "x,y,z,r", "")), &spheres, 1.0);
+    // LAMMPS has diameters; mass and moments keep their digits.
+    let molecule = first(Format::Lammps, &options);
+    let diameters = molecule.lines().skip_while(|l| *l != "Diameters").skip(2).take(6);
+    for (line, s) in diameters.zip(&r.spheres) {
+        let d = numbers(line)[1];
+        assert!(d == f64::from(d as f32) && d <= 2e3 * s.radius && d > 1.999_99e3 * s.radius);
+    }
+    assert!(molecule.contains(&format!("{:?} mass", r.mass)));
+    // Too far from the origin for what is left of the radius.
+    let mut far = r.clone();
+    far.center = Vec3::new(1e6, 0.0, 0.0);
+    let e = files(&far, Format::Csv, &placed).unwrap_err();
+    assert!(e.to_string().contains("single precision cannot hold sphere"), "{e}");
 }
 
 #[test]

@@ -217,7 +217,9 @@ pub fn run(args: &Args) -> Done {
         Frame::Body => solid.to_body(&clump.spheres),
     };
     let weighed = args.weigh(&solid, &clump, &run)?;
-    let figures = figures(args, (&shape, &solid), &clump, weighed.as_ref(), start);
+    let lacking = figures::lacking(&solid, &clump, &run).about(&args.input)?;
+    let weighing = (weighed.as_ref(), lacking);
+    let figures = figures(args, (&shape, &solid), &clump, weighing, start);
     let masses = weighed.as_ref().and_then(|(_, m)| m.as_ref()).map_or(&[][..], |m| &m.masses);
     let spheres = (&spheres[..], masses);
     if let Some(path) = output {
@@ -303,7 +305,7 @@ fn figures(
     args: &Args,
     (shape, solid): (&Shape, &Solid),
     clump: &Clump,
-    weighed: Option<&(Body, Option<Masses>)>,
+    (weighed, lacking): (Option<&(Body, Option<Masses>)>, Option<f64>),
     start: Instant,
 ) -> Value {
     let measured = clump.quality.as_ref();
@@ -334,7 +336,7 @@ fn figures(
         "peak_bytes": c.peak_bytes,
     });
     if let Some(map) = v.as_object_mut() {
-        map.extend(figures::quality(q, surface));
+        map.extend(figures::quality(q, surface, lacking));
         map.extend(
             weighed
                 .map(|(body, _)| weighing::body_keys(body, args.frame == Frame::Body))

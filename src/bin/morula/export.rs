@@ -47,10 +47,20 @@ pub struct Args {
     /// Facets of each sphere of ply and stl: 20 · 4^N triangles, N at most 6
     #[arg(long, value_name = "N", default_value_t = 3, value_parser = whole::<u32>)]
     facets: u32,
+    /// f32: centres and radii are numbers of single precision, each sphere within the one that it
+    /// stands for, for codes that read them so
+    #[arg(long, value_enum, default_value_t = Precision::F64)]
+    precision: Precision,
     #[command(flatten)]
     weighing: Weighing,
     #[command(flatten)]
     given: Given,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Precision {
+    F64,
+    F32,
 }
 
 /// A format by the library's name for it.
@@ -108,6 +118,7 @@ pub fn run(args: &Args) -> Done {
         mass: args.mass,
         placed: args.placed,
         facets: args.facets,
+        single: args.precision == Precision::F32,
     };
     let files = files(&record, args.to.0, &options).about(&args.clump)?;
     drop(bar);

@@ -1,9 +1,24 @@
 //! The keys of quality in JSON. What was not measured is null.
 
+use morula::mass::{coverage_rule, inertia_error, union_moments};
 use morula::measure::Quality;
+use morula::{Clump, Result, Run, Solid};
 use serde_json::{Map, Value, json};
 
-pub fn quality(q: Option<&Quality>, surface: Option<&Quality>) -> Map<String, Value> {
+/// What the union of the spheres lacks of the target's inertia (ε_w), where overlaps are measured.
+pub fn lacking(solid: &Solid, clump: &Clump, run: &Run) -> Result<Option<f64>> {
+    if clump.quality.is_none() {
+        return Ok(None);
+    }
+    Ok(Some(inertia_error(&solid.moments(), &union_moments(&clump.spheres, run)?)))
+}
+
+/// `lacking`: ε_w, which stands beside what a target shrunk to the same coverage would lack.
+pub fn quality(
+    q: Option<&Quality>,
+    surface: Option<&Quality>,
+    lacking: Option<f64>,
+) -> Map<String, Value> {
     let all = json!({
         "D": q.map(|q| q.mismatch),
         "eta": q.map(|q| q.eta),
@@ -15,6 +30,8 @@ pub fn quality(q: Option<&Quality>, surface: Option<&Quality>) -> Map<String, Va
         "volume_error": q.map(|q| q.volume_error),
         "centroid_error": q.map(|q| q.centroid_error),
         "moment_errors": q.map(|q| q.moment_errors),
+        "inertia_error": q.and(lacking),
+        "inertia_error_of_coverage": q.map(|q| coverage_rule(q.coverage)),
         "protrusion": surface.map(|q| q.protrusion),
         "rms_distance": surface.map(|q| q.rms_distance),
         "hausdorff": surface.map(|q| q.hausdorff),

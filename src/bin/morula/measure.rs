@@ -46,10 +46,10 @@ pub fn run(args: &Args) -> Done {
         options.columns = args.columns.unwrap_or(options.columns);
         let q = quality(&solid, &template.spheres, &options, &run).about(&args.clump)?;
         input::warn(&shape, args.given.quiet);
-        map.extend(figures::quality(Some(&q), Some(&q)));
         let union = union_moments(&template.spheres, &run).about(&args.clump)?;
         let moments = solid.moments();
-        map.insert("inertia_error".into(), inertia_error(&moments, &union).into());
+        let lacking = inertia_error(&moments, &union);
+        map.extend(figures::quality(Some(&q), Some(&q), Some(lacking)));
         map.insert("volume".into(), moments.volume.into());
         map.insert("equivalent_diameter".into(), equivalent_diameter(moments.volume).into());
     } else {
@@ -107,6 +107,7 @@ fn table(out: &mut dyn std::io::Write, figures: &Value) -> std::io::Result<()> {
         ("Hausdorff distance", "hausdorff"),
         ("distance of the centres / d_eq", "centroid_error"),
         ("inertia missing, of the target's", "inertia_error"),
+        ("  of a target shrunk to coverage", "inertia_error_of_coverage"),
         ("mass of the union", "mass"),
     ];
     for (name, key) in rows {

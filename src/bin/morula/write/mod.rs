@@ -3,8 +3,9 @@
 mod clump_json;
 pub mod mesh;
 
-use crate::fail::{Done, Fail};
+use crate::fail::{About, Done, Fail};
 use clap::ValueEnum;
+use morula::export::{File, Place, save};
 use morula::{Sphere, export};
 use std::io::{BufWriter, IsTerminal, Write};
 use std::path::Path;
@@ -59,9 +60,10 @@ pub fn to(path: &str, body: impl FnOnce(&mut dyn Write) -> std::io::Result<()>) 
         return to_stdout(body);
     }
     let path = Path::new(path);
-    let file = std::fs::File::create(path).map_err(|e| Fail::file(path, e))?;
-    let mut out = BufWriter::new(file);
-    body(&mut out).and_then(|()| out.flush()).map_err(|e| Fail::file(path, e))
+    let mut bytes = Vec::new();
+    body(&mut bytes).map_err(|e| Fail::file(path, e))?;
+    // Nothing half-written has that name.
+    save(&[File { place: Place::At, bytes }], path).about("")
 }
 
 /// Writes to stdout.
