@@ -82,7 +82,11 @@ impl Pool {
     /// `f(0), f(1), …, f(n−1)`, in this order whatever the number of threads.
     pub fn map<T: Send>(&self, n: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
         match &self.pool {
-            Some(p) if n > 1 => p.install(|| (0..n).into_par_iter().map(f).collect()),
+            Some(p) if n > 1 => {
+                // Few tasks may differ much: whoever is done first takes the next.
+                let most = (n / 64).max(1);
+                p.install(|| (0..n).into_par_iter().with_max_len(most).map(f).collect())
+            }
             _ => (0..n).map(f).collect(),
         }
     }

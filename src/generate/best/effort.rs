@@ -13,8 +13,10 @@ pub enum Effort {
     Thorough,
 }
 
-/// Of more spheres than this, fewer moves are tried.
-const MANY: usize = 150;
+/// Of more spheres than this, fewer moves are tried, so that all of them take as long.
+const MANY: usize = 50;
+/// The same for the most thorough search.
+const VERY_MANY: usize = 150;
 
 /// The counts of a search.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,8 +31,9 @@ pub(super) struct Plan {
     pub cells: u32,
     /// Columns that meet the target.
     pub columns: usize,
-    /// Moves tried.
+    /// Moves tried, and the most balls that one of them refines.
     pub moves: usize,
+    pub around: usize,
     /// Directions and iterations of the last refinement.
     pub polish: [usize; 2],
 }
@@ -41,16 +44,17 @@ impl Effort {
         let wide = |least: usize, each: usize| least.max(each.saturating_mul(n));
         let add = |base: usize, each: usize| base.saturating_add(each.saturating_mul(n));
         // Of many spheres a move costs more: each column holds more of them.
-        let moves = |few: usize| few.saturating_mul(MANY).div_ceil(n.max(MANY));
+        let moves = |few: usize, many: usize| few.saturating_mul(many).div_ceil(n.max(many));
         match self {
             Effort::Draft => Plan {
                 points: wide(1500, 24),
                 candidates: wide(300, 5),
                 directions: 48,
-                iterations: 60,
+                iterations: 50,
                 cells: (44.0 * (n as f64 / 50.0).cbrt()).clamp(44.0, 1e6) as u32,
-                columns: add(1000, 10),
+                columns: add(600, 10),
                 moves: 0,
+                around: 0,
                 polish: [0, 0],
             },
             Effort::Normal => Plan {
@@ -60,7 +64,8 @@ impl Effort {
                 iterations: 100,
                 cells: u32::MAX,
                 columns: add(1500, 15),
-                moves: moves(160),
+                moves: moves(160, MANY),
+                around: 8,
                 polish: [192, 50],
             },
             Effort::Thorough => Plan {
@@ -70,7 +75,8 @@ impl Effort {
                 iterations: 100,
                 cells: u32::MAX,
                 columns: add(4000, 60),
-                moves: moves(4000),
+                moves: moves(4000, VERY_MANY),
+                around: 12,
                 polish: [384, 60],
             },
         }

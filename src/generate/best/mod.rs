@@ -119,7 +119,7 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let mut state = start.best(&choices, smooth, &mut look, &mut go)?;
     state.join(&mut look, &watch)?;
     let mut peak = state.bytes();
-    let mut search = Search::new(&mut state, run.seed(), run.pool(), &watch);
+    let mut search = Search::new(&mut state, run.seed(), run.pool(), &watch, plan.around);
     let batches = plan.moves.div_ceil(BATCH);
     for k in 0..batches {
         if !watch.at(0.4 + 0.5 * k as f64 / batches as f64) {

@@ -18,8 +18,6 @@ use crate::generate::balls::random::Random;
 const SHAKEN: f64 = 0.25;
 /// Places tried for a ball that is moved.
 pub(super) const PLACES: usize = 4;
-/// Most balls refined by a move.
-const AROUND: usize = 12;
 /// How many times as large as the ball that moves these may be.
 const LARGER: f32 = 4.0;
 /// A move whose best place loses more than this part of what the ball was worth is given up every
@@ -33,16 +31,18 @@ const HOPE: f64 = 0.3;
 /// through the ball that moves.
 const ROWS: f32 = 8.0;
 
-/// Directions of the refinements.
+/// Directions of the refinements, and the most balls of one.
 pub(super) struct Fans {
     pub few: Directions,
     some: Directions,
     many: Directions,
+    around: usize,
 }
 
 impl Fans {
-    pub(super) fn new() -> Fans {
-        Fans { few: Directions::new(32), some: Directions::new(64), many: Directions::new(128) }
+    pub(super) fn new(around: usize) -> Fans {
+        let [few, some, many] = [32, 64, 128].map(Directions::new);
+        Fans { few, some, many, around }
     }
 }
 
@@ -128,7 +128,7 @@ impl<'a> Mover<'a> {
                 return false;
             }
         }
-        self.around(state, of);
+        self.around(state, fans.around, of);
         let all = self.orbits.balls(of);
         let schedule = Schedule { iterations: 16, from: 4.0 * width, to: 0.4 * width };
         self.refine(state, &schedule, &fans.some, of, random);
@@ -180,16 +180,17 @@ impl<'a> Mover<'a> {
     /// Adds to `of` who leads the balls that meet those moved at their old or new places, those
     /// that overlap them most. Much larger ones stay: all their columns would have to be looked
     /// at.
-    fn around(&self, state: &State, of: &mut Vec<u32>) {
+    fn around(&self, state: &State, most: usize, of: &mut Vec<u32>) {
         let moved = self.orbits.balls(of);
         let old = moved.iter().filter(|&&j| state.orbits.lead(j) == j);
         let mut places: Vec<Ball> = old.map(|&j| state.balls[j as usize]).collect();
         places.extend(of.iter().map(|&j| self.trial[j as usize]));
-        let most = LARGER * places.iter().fold(0.0, |r, p| p.radius.max(r));
+        let largest = LARGER * places.iter().fold(0.0, |r, p| p.radius.max(r));
         let mut near: Vec<(f32, u32)> = Vec::new();
         for (j, b) in (0u32..).zip(&self.trial) {
             let lead = self.orbits.lead(j);
-            if !of.contains(&lead) && b.radius <= most && places.iter().any(|p| b.meets(p, 0.0)) {
+            if !of.contains(&lead) && b.radius <= largest && places.iter().any(|p| b.meets(p, 0.0))
+            {
                 // How far apart the surfaces are.
                 let gap = |x: &Ball| b.apart(x).sqrt() - b.radius - x.radius;
                 near.push((places.iter().map(gap).fold(f32::MAX, f32::min), lead));
@@ -197,7 +198,7 @@ impl<'a> Mover<'a> {
         }
         near.sort_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         for (_, lead) in near {
-            if of.len() >= AROUND {
+            if of.len() >= most {
                 break;
             }
             if !of.contains(&lead) {

@@ -43,17 +43,19 @@ pub(super) struct Search<'s, 'a> {
 }
 
 impl<'s, 'a> Search<'s, 'a> {
+    /// `around`: most balls that a move refines.
     pub(super) fn new(
         state: &'s mut State<'a>,
         seed: u64,
         pool: &'s Pool,
         watch: &'s Watch<'s>,
+        around: usize,
     ) -> Search<'s, 'a> {
         Search {
             state,
             pool,
             watch,
-            fans: Fans::new(),
+            fans: Fans::new(around),
             movers: (0..BATCH).map(|_| Mutex::default()).collect(),
             look: Look::default(),
             refiner: Refiner::default(),
