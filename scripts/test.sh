@@ -95,6 +95,8 @@ fi
 # DEM codes that read the files written for them.
 have lmp || install lammps || true
 have lmp || skip "what LAMMPS reads" "lmp is not installed (package lammps)"
+have mpirun || install openmpi-bin || true
+have mpirun || skip "LAMMPS on two ranks" "mpirun is not installed (package openmpi-bin)"
 for code in liggghts yade; do
     have "$code" || { [ "$all_codes" = yes ] && install "$code"; } || true
     have "$code" && continue

@@ -2,7 +2,8 @@
 //!
 //! YADE adds up whole spheres of their materials' densities (38 % too heavy on a clump of three), or
 //! counts cells of a grid, which is as slow as it is fine. Here each sphere has a material of its
-//! own, with the density that gives it its corrected mass, and the sum is the body's.
+//! own, with the density that gives it its corrected mass, and the sum is the body's; where no masses
+//! have its inertia, the moments are set after.
 
 use super::Record;
 use std::fmt::Write;
@@ -36,6 +37,7 @@ _materials = {}
 def append(material, position=(0, 0, 0), orientation=None, color=None):
     """Appends the clump, turned by a Quaternion, with copies of a material of the simulation that
     differ in density alone. Returns the clump's id and those of its spheres."""
+    import itertools
     import math
     from yade import Omega, utils
     from yade.minieigenHP import Quaternion, Vector3
@@ -51,8 +53,17 @@ def append(material, position=(0, 0, 0), orientation=None, color=None):
             numbers.append(simulation.materials.append(type(like)(**own)))
         _materials[key] = numbers
     turn = orientation if orientation is not None else Quaternion.Identity
-    return simulation.bodies.appendClumped(
+    clump, members = simulation.bodies.appendClumped(
         [utils.sphere(Vector3(position) + turn * Vector3(x, y, z), r, material=number, color=color)
          for (x, y, z, r, _), number in zip(spheres, numbers)],
         discretization=0)
+    # Few spheres may have no masses with the body's inertia: then its moments are set here, about the
+    # spheres' own axes, each for the one that lies nearest.
+    state = simulation.bodies[clump].state
+    axes = (turn.conjugate() * state.ori).toRotationMatrix()
+    order = max(itertools.permutations(range(3)),
+                key=lambda order: sum(axes[k, j] ** 2 for j, k in enumerate(order)))
+    state.mass = mass
+    state.inertia = Vector3(*(moments[k] for k in order))
+    return clump, members
 "#;
