@@ -33,8 +33,11 @@ fn write(r: &Record, format: Format, path: &Path) {
     save(&files(r, format, &ExportOptions::default()).unwrap(), path).unwrap();
 }
 
-/// The last body that was dumped: mass, principal moments ascending, angular velocity.
-fn last(folder: &Path) -> (f64, [f64; 3], [f64; 3]) {
+/// Mass, principal moments ascending, angular velocity.
+type Dumped = (f64, [f64; 3], [f64; 3]);
+
+/// The last body that was dumped.
+fn last(folder: &Path) -> Dumped {
     let text = std::fs::read_to_string(folder.join("out.txt")).unwrap();
     let n = numbers(text.lines().last().unwrap());
     let mut moments = [n[2], n[3], n[4]];
@@ -48,7 +51,7 @@ fn spun(
     folder: &Path,
     program: &str,
     words: &[&str],
-) -> Option<(String, (f64, [f64; 3], [f64; 3]))> {
+) -> Option<(String, Dumped)> {
     write(r, Format::Lammps, &folder.join("clump.mol"));
     write(r, Format::LammpsRigid, &folder.join("body.txt"));
     // The file's body is at rest: give it its angular momentum, the nine last numbers' middle.
