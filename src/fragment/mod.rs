@@ -6,10 +6,12 @@
 
 #[allow(dead_code)]
 mod mark;
+mod motion;
 #[allow(dead_code)]
 mod region;
 mod union;
 
 pub use mark::Mark;
+pub use motion::{HandOver, Held, Moving};
 pub use region::Region;
 pub use union::Union;
