@@ -258,9 +258,9 @@ pub struct morula_report {
 pub struct morula_moments {
     /// sizeof(morula_moments), set by the caller.
     pub struct_size: usize,
-    /// Volume of the inside: of the polyhedron where the mesh is closed and does not cross
-    /// itself, of the solid cells, otherwise of where the winding number is above 1/2 (by columns,
-    /// see relative_error). On open or overlapping meshes the report's volume is another.
+    /// Volume of the inside: of the polyhedron where the mesh, with lids over its openings, is closed
+    /// and does not cross itself, of the solid cells, otherwise of where the winding number is above
+    /// 1/2 (by columns, see relative_error). There the report's volume may be another.
     pub volume: f64,
     /// Volume times the density.
     pub mass: f64,

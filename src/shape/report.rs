@@ -44,8 +44,9 @@ pub struct Report {
     /// overlapping parts counted as often as they overlap; or of the solid cells.
     ///
     /// Equal to the volume of the moments ([`crate::solid`]) for voxels and for a closed surface
-    /// that does not cross itself. Otherwise the two differ, and that of the moments holds for the
-    /// particle: it integrates where the winding number is above ½, with a stated error.
+    /// that does not cross itself. Otherwise the two may differ, and that of the moments holds for the
+    /// particle: it has lids over the openings, and where none can be it integrates where the winding
+    /// number is above ½, with a stated error.
     pub volume: f64,
     /// Surface area, or area of the cells' outer faces.
     pub area: f64,

@@ -1,6 +1,6 @@
 //! The grid of a solid and how fine it is.
 
-use super::{Solid, SolidOptions, coverage, moments};
+use super::{Solid, SolidOptions, coverage, lids, moments};
 use crate::error::{Error, Result, filled};
 use crate::math::{Moments, Vec3};
 use crate::run::{Run, Stage};
@@ -129,10 +129,13 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
             options.padding
         )));
     }
+    let mut notes = Vec::new();
+    let lidded =
+        run.time(Stage::Solid, || lids::of_shape(shape, options.memory_limit, &mut notes, run))?;
+    let shape = lidded.as_ref().unwrap_or(shape);
     let moments =
         run.time(Stage::Moments, || moments::within(&shape.body, options.memory_limit, run))?;
     run.time(Stage::Solid, || {
-        let mut notes = Vec::new();
         if moments.relative_error > 0.0 {
             notes.push(format!(
                 "the surface is open or crosses itself: moments by columns, within {:.2e}",

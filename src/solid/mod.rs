@@ -7,6 +7,7 @@ pub mod coverage;
 pub mod edt;
 pub mod field;
 pub mod grid;
+mod lids;
 pub mod moments;
 pub mod nearest;
 mod triangle;
@@ -56,7 +57,7 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// The body, in the unit frame.
+    /// The body, in the unit frame: the shape's; of an open mesh with lids over its openings.
     pub fn body(&self) -> &Body {
         &self.body
     }

@@ -1,8 +1,8 @@
 //! Exact volume, centroid and inertia of a body.
 
-use super::Columns;
 use super::columns::{Cones, Lattice, Rows, border};
 use super::winding::Winding;
+use super::{Columns, lids};
 use crate::error::{Error, Result};
 use crate::math::{Inertia, Moments, Vec3};
 use crate::run::Run;
@@ -34,7 +34,15 @@ const ROUNDING: f64 = 1e-9;
 /// column. An overlap whose shadow along each of the three axes is less than about 1/4000 of
 /// the box's face may slip between them; the polyhedral integrals count it twice, and
 /// `relative_error` is 0. Such a one takes less than 1e-5 of the box.
+///
+/// Openings of a mesh are closed by the lids that [`super::Solid`] puts over them.
 pub fn moments(body: &Body, run: &Run) -> Result<Moments> {
+    if let Body::Mesh(mesh) = body
+        && let Some(lids) = lids::close(mesh, false, u64::MAX, run)?
+        && let Some(closed) = lids.mesh
+    {
+        return within(&Body::Mesh(closed), u64::MAX, run);
+    }
     within(body, u64::MAX, run)
 }
 

@@ -15,7 +15,6 @@ mod fit;
 mod four_point;
 mod hull;
 mod levenberg;
-mod openings;
 pub(in crate::generate) mod points;
 mod rules;
 mod sample;

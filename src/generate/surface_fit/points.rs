@@ -5,7 +5,6 @@
 //! weigh every part alike, and a fit to them keeps the volume.
 
 use super::draw::Draw;
-use super::openings::lids;
 use crate::error::{Error, Result, fits, push, reserve};
 use crate::math::Vec3;
 use crate::run::Run;
@@ -33,8 +32,6 @@ pub(in crate::generate) struct Points {
 struct Point {
     at: Vec3,
     normal: Vec3,
-    /// Over an opening, where the inside ends without a surface.
-    lid: bool,
 }
 
 impl Points {
@@ -49,7 +46,7 @@ impl Points {
             let some = all.iter().skip(c * CHUNK).take(CHUNK);
             let bound = |p: &Point| {
                 let step = p.normal * ASIDE;
-                p.lid || !surface.contains(&(p.at + step)) && surface.contains(&(p.at - step))
+                !surface.contains(&(p.at + step)) && surface.contains(&(p.at - step))
             };
             some.map(bound).collect::<Vec<bool>>()
         });
@@ -90,21 +87,16 @@ fn spread(
 fn on_mesh(mesh: &Mesh, room: u64, run: &Run) -> Result<Vec<Point>> {
     let what = "points of the surface";
     let n = mesh.faces.len();
-    // The faces in order, and their sides where it is open.
-    let bytes = (n as u64).saturating_mul(16 + 36);
+    // The faces in order.
+    let bytes = (n as u64).saturating_mul(16);
     fits(format_args!("{what} of {n} faces"), bytes, room)?;
-    let lids = lids(mesh)?;
-    let corners = |i: usize| match lids.get(i.wrapping_sub(n)) {
-        Some(lid) => *lid,
-        None => mesh.corners(i),
-    };
     let twice = |i: usize| {
-        let [a, b, c] = corners(i);
+        let [a, b, c] = mesh.corners(i);
         (b - a).cross(&(c - a))
     };
-    let mut order: Vec<(u64, usize)> = reserve(what, n + lids.len())?;
-    for i in 0..n + lids.len() {
-        let [a, b, c] = corners(i);
+    let mut order: Vec<(u64, usize)> = reserve(what, n)?;
+    for i in 0..n {
+        let [a, b, c] = mesh.corners(i);
         order.push((curve(&((a + b + c) / 3.0)), i));
     }
     order.sort_unstable();
@@ -116,11 +108,11 @@ fn on_mesh(mesh: &Mesh, room: u64, run: &Run) -> Result<Vec<Point>> {
     let mut out = reserve(what, POINTS)?;
     spread(order.iter().map(area), total, run.seed(), |k, draw| {
         if let Some(&(_, i)) = order.get(k) {
-            let [a, b, c] = corners(i);
+            let [a, b, c] = mesh.corners(i);
             let (u, v) = (draw.unit().sqrt(), draw.unit());
             let at = a * (1.0 - u) + b * (u * (1.0 - v)) + c * (u * v);
             let normal = twice(i);
-            out.push(Point { at, normal: normal / normal.norm(), lid: i >= n });
+            out.push(Point { at, normal: normal / normal.norm() });
         }
     });
     Ok(out)
@@ -154,7 +146,7 @@ fn on_voxels(voxels: &Voxels, run: &Run) -> Result<Vec<Point>> {
             p[axis] = corner[axis] + up;
             let mut normal = Vec3::zeros();
             normal[axis] = 2.0 * up - 1.0;
-            out.push(Point { at: p.component_mul(&h), normal, lid: false });
+            out.push(Point { at: p.component_mul(&h), normal });
         }
     });
     Ok(out)

@@ -339,7 +339,7 @@ fn choose(
     if openness > 1e-4 * area {
         report.notes.push(format!(
             "the surface is open: from its faces {:.2} % of all directions are seen through \
-             openings on average; the winding number closes flat openings flat",
+             openings on average",
             100.0 * openness / area
         ));
     }
@@ -384,8 +384,8 @@ fn finish(
     report.box_max = hi.into();
     if !report.watertight {
         report.notes.push(format!(
-            "edges with one face: {}, with more than two: {}; inside is where the winding number is \
-             above ½",
+            "edges with one face: {}, with more than two: {}; openings get lids, and where they cannot \
+             inside is where the winding number is above ½",
             edges.boundary, edges.nonmanifold
         ));
     }
