@@ -4,11 +4,13 @@
 
 mod common;
 
+use morula::export::read::parse;
+use morula::export::{ExportOptions, Format, Record, files};
 use morula::generate::cover::Candidates;
 use morula::generate::{Effort, GenerateOptions, Method, generate};
 use morula::mass::{
-    Body, MassOptions, MassStatus, Masses, Objective, Target, correct, coverage_rule,
-    inertia_error, union_moments,
+    Body, Contact, ContactOptions, MassOptions, MassStatus, Masses, Objective, Target, correct,
+    coverage_rule, inertia_error, time_step, union_moments,
 };
 use morula::math::Vec3;
 use morula::measure::{QualityOptions, quality};
@@ -158,6 +160,39 @@ fn the_body_is_the_solid_at_a_density() {
 }
 
 #[test]
+fn tiny_and_huge_bodies_are_weighed_and_written_alike() {
+    let stone = Primitive::from_name("stone").unwrap().mesh(32).unwrap();
+    for scale in [1e-9, 1.0, 1e6] {
+        let mut mesh = stone.clone();
+        mesh.0.iter_mut().for_each(|v| *v = v.map(|x| x * scale));
+        let shape = Shape::from_mesh(&mesh.0, &mesh.1, &ImportOptions::default(), &Run::serial());
+        let solid = of_shape(&shape.unwrap());
+        let spheres = clump(&solid, 50);
+        for density in [1e-3, 1e5] {
+            let body = Body::of_solid(&solid, density).unwrap();
+            let m = correct(&spheres, &body, &MassOptions::default(), &Run::serial()).unwrap();
+            assert_eq!(m.status, MassStatus::Exact, "{scale} {density}");
+            check(&spheres, &body, &m);
+            let contact = Contact::Material { young: 1e7, poisson: 0.3 };
+            let contact = ContactOptions { contact, speed: 1.0, contacts: 3 };
+            assert!(time_step(&spheres, &m.masses, &body, &contact).unwrap().clump > 0.0);
+            let record = Record::new("stone", &spheres, &m.masses, &body).unwrap();
+            for single in [false, true] {
+                for format in Format::ALL {
+                    let options = ExportOptions { single, facets: 0, ..ExportOptions::default() };
+                    let all = files(&record, format, &options).unwrap();
+                    assert!(all.iter().all(|f| !f.bytes.is_empty()), "{}", format.name());
+                    if format == Format::Csv {
+                        let text = String::from_utf8(all[0].bytes.clone()).unwrap();
+                        assert_eq!(parse(&text).unwrap().masses, m.masses);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn voxels_have_masses_too() {
     let (dims, spacing) = ([24, 18, 14], [0.1, 0.1, 0.12]);
     let inside = |i: usize, j: usize, k: usize| {
@@ -267,6 +302,15 @@ fn body_frames_do_not_flip() {
     for at in [[1e3, 0.0, 0.0], [0.1, 0.2, 0.3]] {
         let there = of(&common::sphere(24, 48, 1.3, at)).quaternion;
         assert!(there.iter().zip(ball.quaternion).all(|(a, b)| (a - b).abs() < 1e-9));
+    }
+    for shift in [0.0, 0.3, 1e3] {
+        let mut m = Primitive::from_name("cylinder").unwrap().mesh(48).unwrap();
+        m.0.iter_mut().for_each(|v| v[1] += shift);
+        // Equal moments across it: its own axis, and the other two as the input has them.
+        let axes = of(&m).axes;
+        assert!((axes.abs().max() - 1.0).abs() < 1e-12, "{axes}");
+        let first = of(&Primitive::from_name("cylinder").unwrap().mesh(48).unwrap()).axes;
+        assert!((axes - first).abs().max() < 1e-9, "{axes} {first}");
     }
     // Clumps with equal moments, whose union is known to 1e-10.
     let at = |i: i32, k: i32| f64::from(2 * (i >> k & 1) - 1);

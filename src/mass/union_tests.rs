@@ -173,6 +173,69 @@ fn three_and_four_spheres_of_a_reuleaux_tetrahedron() {
     assert!((all - exact).abs() < 1e-9, "{all} {exact}");
 }
 
+/// The volume of the lens of two balls.
+fn lens(r: f64, s: f64, d: f64) -> f64 {
+    let both = r + s - d;
+    PI * both * both * (d * d + 2.0 * d * (r + s) - 3.0 * (r - s) * (r - s)) / (12.0 * d)
+}
+
+/// The part of all directions that the corner at `o` of a tetrahedron takes.
+fn corner(o: &Vec3, others: [&Vec3; 3]) -> f64 {
+    let [a, b, c] = others.map(|p| p - o);
+    let [x, y, z] = [a.norm(), b.norm(), c.norm()];
+    let above = x * y * z + a.dot(&b) * z + b.dot(&c) * x + c.dot(&a) * y;
+    2.0 * a.dot(&b.cross(&c)).abs().atan2(above) / (4.0 * PI)
+}
+
+/// The part of a full turn between the faces of a tetrahedron that meet in the edge `p`, `q`.
+fn edge(p: &Vec3, q: &Vec3, others: [&Vec3; 2]) -> f64 {
+    let along = (q - p).normalize();
+    let [u, v] = others.map(|o| (o - p) - along * along.dot(&(o - p)));
+    u.cross(&v).norm().atan2(u.dot(&v)) / (2.0 * PI)
+}
+
+#[test]
+fn three_spheres_by_formula() {
+    // The centres and a point where all three surfaces meet span a tetrahedron that the balls cover:
+    // by inclusion and exclusion within it (Edelsbrunner 1995), half of what is common to all three.
+    let mut seen = 0;
+    for k in 0..400 {
+        let t = f64::from(k) + 0.5;
+        let of = |f: f64| (t * f).fract();
+        let r = [0.7 + 0.5 * of(0.371), 0.7 + 0.5 * of(0.613), 0.7 + 0.5 * of(0.829)];
+        let p = [
+            Vec3::zeros(),
+            Vec3::new(0.2 + of(0.287), 0.0, 0.0),
+            Vec3::new(of(0.541), 0.2 + of(0.717), 0.0),
+        ];
+        let d = |i: usize, j: usize| (p[i] - p[j]).norm();
+        let pairs = [(0, 1, 2), (0, 2, 1), (1, 2, 0)];
+        let x = (r[0] * r[0] - r[1] * r[1] + p[1].x * p[1].x) / (2.0 * p[1].x);
+        let (i, j) = (p[2].x, p[2].y);
+        let y = (r[0] * r[0] - r[2] * r[2] + i * i + j * j - 2.0 * i * x) / (2.0 * j);
+        let z2 = r[0] * r[0] - x * x - y * y;
+        let within = |&(i, j, _): &(usize, usize, usize)| (r[i] - r[j]).abs() >= d(i, j);
+        if z2 <= 0.0 || pairs.iter().any(within) {
+            continue;
+        }
+        seen += 1;
+        let top = Vec3::new(x, y, z2.sqrt());
+        let volume = r.map(|r| 4.0 / 3.0 * PI * r.powi(3));
+        let mut half = p[1].x * j * top.z / 6.0;
+        let mut union = volume.iter().sum::<f64>();
+        for (i, j, k) in pairs {
+            half -= corner(&p[k], [&p[i], &p[j], &top]) * volume[k];
+            half += edge(&p[i], &p[j], [&p[k], &top]) * lens(r[i], r[j], d(i, j));
+            union -= lens(r[i], r[j], d(i, j));
+        }
+        union += 2.0 * half;
+        let balls = [0, 1, 2].map(|i| Sphere::new(p[i], r[i]));
+        let found = moments(&balls).volume;
+        assert!((found / union - 1.0).abs() < 1e-9, "{found} {union} of {balls:?}");
+    }
+    assert!(seen > 150, "{seen}");
+}
+
 #[test]
 fn scattered_spheres_against_columns() {
     for (n, seed) in [(3, 0.0), (5, 3.0), (12, 1.0), (40, 7.0), (150, 2.0)] {

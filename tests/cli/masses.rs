@@ -154,6 +154,40 @@ fn clumps_are_exported_and_measured_again() {
     assert!(table.contains("30 spheres") && table.contains("volume of their union"), "{table}");
 }
 
+/// Files that may not grow as they must are as a disk that is full half-way.
+#[cfg(unix)]
+#[test]
+fn a_disk_that_fills_leaves_what_was_there() {
+    let folder = folder("full");
+    let csv = folder.join("stone.csv");
+    succeeds(&["clump", STONE, "-n", "12", "--effort", "draft", "-o", text(&csv)]);
+    let out = folder.join("out.stl");
+    let within = |words: &[&str]| {
+        let limited = "ulimit -f 16; trap '' XFSZ; exec \"$0\" \"$@\"";
+        let mut command = Command::new("sh");
+        command.args(["-c", limited, env!("CARGO_BIN_EXE_morula")]).args(words);
+        command.stdin(Stdio::null()).output().unwrap()
+    };
+    let ply = folder.join("out.ply");
+    for (path, words) in [
+        (&out, vec!["export", text(&csv), "--density", "1", "--to", "stl", "-o", text(&out)]),
+        (&ply, vec!["clump", STONE, "-n", "12", "--effort", "draft", "-o", text(&ply)]),
+    ] {
+        std::fs::write(path, "what was there").unwrap();
+        let output = within(&words);
+        assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+        assert!(stderr(&output).contains("[IO]"), "{}", stderr(&output));
+        assert_eq!(std::fs::read_to_string(path).unwrap(), "what was there");
+        // Without the limit they are written.
+        succeeds(&words);
+        assert!(std::fs::metadata(path).unwrap().len() > 100_000);
+    }
+    let mut left: Vec<_> =
+        std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name()).collect();
+    left.sort();
+    assert_eq!(left, ["out.ply", "out.stl", "stone.csv"]);
+}
+
 #[test]
 fn exports_and_measures_that_make_no_sense_are_refused() {
     let folder = folder("export-bad");

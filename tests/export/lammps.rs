@@ -46,12 +46,7 @@ fn last(folder: &Path) -> Dumped {
 }
 
 /// The body of the infile, spinning; what it is after 1000 steps, and what was said. None where a program is not there.
-fn spun(
-    r: &Record,
-    folder: &Path,
-    program: &str,
-    words: &[&str],
-) -> Option<(String, Dumped)> {
+fn spun(r: &Record, folder: &Path, program: &str, words: &[&str]) -> Option<(String, Dumped)> {
     write(r, Format::Lammps, &folder.join("clump.mol"));
     write(r, Format::LammpsRigid, &folder.join("body.txt"));
     // The file's body is at rest: give it its angular momentum, the nine last numbers' middle.

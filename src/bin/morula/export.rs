@@ -10,8 +10,9 @@ use crate::write;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use morula::Run;
+use morula::error::count;
 use morula::export::{ExportOptions, Format, Record, files, save};
-use morula::mass::Body;
+use morula::mass::{Body, MassStatus, Masses};
 use std::path::Path;
 
 #[derive(clap::Args)]
@@ -112,7 +113,7 @@ pub fn run(args: &Args) -> Done {
     let masses = self::masses(args, &template.spheres, &body, &run)?;
     let stem = || Path::new(&args.output).file_stem().and_then(|n| n.to_str()).unwrap_or("clump");
     let name = args.name.as_deref().unwrap_or_else(stem);
-    let record = Record::new(name, spheres, &masses, &body).about(&args.clump)?;
+    let record = Record::new(name, spheres, &masses.masses, &body).about(&args.clump)?;
     let options = ExportOptions {
         length: args.length,
         mass: args.mass,
@@ -130,13 +131,28 @@ pub fn run(args: &Args) -> Done {
         files.iter().try_for_each(|f| {
             let place = f.place.of(Path::new(&args.output));
             writeln!(out, "{}: {} bytes", place.display(), f.bytes.len())
-        })
+        })?;
+        let r = masses.residuals;
+        match masses.status {
+            MassStatus::Exact => Ok(()),
+            MassStatus::Relaxed => writeln!(
+                out,
+                "no masses of {} have the inertia of the body: least error {:.2e}",
+                count(spheres.len() as u64, "sphere"),
+                r.inertia
+            ),
+            MassStatus::MassOnly => writeln!(
+                out,
+                "no masses have the centre of the body: {:.2e} of its radius of gyration off",
+                r.center
+            ),
+        }
     })
 }
 
-fn masses(args: &Args, spheres: &[morula::Sphere], body: &Body, run: &Run) -> Done<Vec<f64>> {
+fn masses(args: &Args, spheres: &[morula::Sphere], body: &Body, run: &Run) -> Done<Masses> {
     let masses = args.weighing.masses(spheres, body, &args.clump, run)?;
-    masses.map(|m| m.masses).ok_or_else(|| {
+    masses.ok_or_else(|| {
         Fail::Usage("--masses none: the formats of DEM codes have a mass for each sphere".into())
     })
 }
