@@ -35,8 +35,7 @@ pub struct Union {
 struct Arc {
     center: Vec3,
     radius: f64,
-    /// Normal of its plane, and directions in it that span it.
-    axis: Vec3,
+    /// Directions that span its plane.
     e1: Vec3,
     e2: Vec3,
     /// From angle `from`, in 0..2π, on by `span`, 2π at most.
@@ -95,6 +94,11 @@ impl Union {
     /// How deep `p` lies in the union: the radius of the largest ball about it that leaves the
     /// union nowhere, but for rounding. Outside, the distance to the nearest sphere, negative.
     pub fn depth(&self, p: &Vec3) -> f64 {
+        self.nearest(p).0
+    }
+
+    /// The same, and the nearest exposed point; outside the nearest of a sphere.
+    pub(super) fn nearest(&self, p: &Vec3) -> (f64, Vec3) {
         let (mut most, mut deepest) = (f64::MIN, 0);
         for (i, s) in self.spheres.iter().enumerate() {
             let depth = s.radius - (p - s.center).norm();
@@ -104,14 +108,14 @@ impl Union {
         }
         // Nothing exposed is nearer than the surface of a sphere about the point.
         if most <= 0.0 || self.open(deepest, p) {
-            return most;
+            return (most, self.below(deepest, p));
         }
-        let mut least = f64::MAX;
+        let (mut least, mut found) = (f64::MAX, None);
         for (i, s) in self.spheres.iter().enumerate() {
             let depth = s.radius - (p - s.center).norm();
             // From outside a sphere, what is exposed of others is met before it.
             if depth > 0.0 && depth < least && self.open(i, p) {
-                least = depth;
+                (least, found) = (depth, Some(self.below(i, p)));
             }
         }
         for (chunk, arcs) in self.chunks.iter().zip(self.arcs.chunks(CHUNK)) {
@@ -120,23 +124,33 @@ impl Union {
             }
             for arc in arcs {
                 if (p - arc.about.center).norm() - arc.about.radius < least {
-                    least = least.min(arc.distance(p));
+                    let point = arc.nearest(p);
+                    let distance = (p - point).norm();
+                    if distance < least {
+                        (least, found) = (distance, Some(point));
+                    }
                 }
             }
         }
         // Without any arc a sphere about the point is exposed as a whole.
-        if least < f64::MAX { least } else { most }
+        found.map_or_else(|| (most, self.below(deepest, p)), |point| (least, point))
     }
 
-    /// Whether the point of sphere `i` nearest to `p` is exposed.
-    fn open(&self, i: usize, p: &Vec3) -> bool {
+    /// The point of sphere `i` nearest to `p`.
+    fn below(&self, i: usize, p: &Vec3) -> Vec3 {
         let s = &self.spheres[i];
         let way = p - s.center;
         let apart = way.norm();
-        if apart <= f64::MIN_POSITIVE {
+        let way = if apart <= f64::MIN_POSITIVE { Vec3::x() } else { way / apart };
+        s.center + way * s.radius
+    }
+
+    /// Whether the point of sphere `i` nearest to `p` is exposed; about its centre, any point.
+    fn open(&self, i: usize, p: &Vec3) -> bool {
+        if (p - self.spheres[i].center).norm() <= f64::MIN_POSITIVE {
             return self.exposed[i];
         }
-        !self.hides(i, &(s.center + way * (s.radius / apart)))
+        !self.hides(i, &self.below(i, p))
     }
 
     /// Whether a point of sphere `i` lies in another.
@@ -193,7 +207,6 @@ impl Union {
         let circle = Arc {
             center,
             radius,
-            axis,
             e1,
             e2,
             from: 0.0,
@@ -235,15 +248,16 @@ impl Arc {
         Arc { from: from.rem_euclid(TAU), span, about, ..*self }
     }
 
-    fn distance(&self, p: &Vec3) -> f64 {
+    fn nearest(&self, p: &Vec3) -> Vec3 {
         let to = p - self.center;
         let (x, y) = (to.dot(&self.e1), to.dot(&self.e2));
         let angle = if x == 0.0 && y == 0.0 { self.from } else { y.atan2(x) };
         if (angle - self.from).rem_euclid(TAU) <= self.span {
-            return to.dot(&self.axis).hypot(x.hypot(y) - self.radius);
+            return self.at(angle);
         }
-        let end = |angle: f64| (p - self.at(angle)).norm();
-        end(self.from).min(end(self.from + self.span))
+        let ends = [self.at(self.from), self.at(self.from + self.span)];
+        let [a, b] = ends.map(|q| (p - q).norm_squared());
+        if a <= b { ends[0] } else { ends[1] }
     }
 }
 

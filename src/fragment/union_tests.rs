@@ -173,7 +173,7 @@ proptest! {
             let depth = all.depth(&p);
             prop_assert!(depth >= fewer.depth(&p) - 1e-9);
             // What it is in a tree is what it is arc by arc.
-            let each = all.arcs.iter().map(|a| a.distance(&p)).fold(f64::MAX, f64::min);
+            let each = all.arcs.iter().map(|a| (a.nearest(&p) - p).norm()).fold(f64::MAX, f64::min);
             prop_assert!(depth <= each + 1e-15);
         }
     }

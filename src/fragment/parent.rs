@@ -1,0 +1,179 @@
+//! What is made once of a particle that may break, and read by every break.
+
+use super::field::{self, Cell};
+use super::room::{Ball, Parts, Room};
+use super::spread::{Random, spread};
+use super::union::Union;
+use crate::error::{Result, collected, fits, reserve};
+use crate::mass::{Body, Contact, ContactOptions, time_step};
+use crate::math::{Sphere, Vec3};
+use crate::run::Run;
+use crate::solid::Solid;
+use crate::solid::nearest::Surface;
+use std::sync::Arc;
+
+/// Balls about the medial axis that are kept as candidates.
+const CANDIDATES: usize = 3000;
+
+/// A particle that may break: its solid, with the distance field and the tree over the surface,
+/// the spheres of its clump with the union's depth, and balls about its medial axis.
+///
+/// In the unit frame of the solid. It is read only and may be shared by threads.
+pub struct Parent {
+    solid: Arc<Solid>,
+    spheres: Vec<Sphere>,
+    /// Balls that no larger one within the surface holds, nearly.
+    medial: Vec<Sphere>,
+    field: Vec<Cell>,
+    narrow: Option<Narrow>,
+    step: Option<f64>,
+    bytes: u64,
+}
+
+/// What the surface and the union of the spheres have in common.
+pub(super) struct Narrow {
+    pub union: Union,
+    pub field: Vec<Cell>,
+    pub medial: Vec<Sphere>,
+}
+
+/// What the spheres of a fragment stay in.
+pub(super) struct Within<'a> {
+    pub field: &'a [Cell],
+    pub union: Option<&'a Union>,
+    pub medial: &'a [Sphere],
+}
+
+impl Parent {
+    /// Of a solid and the spheres of its clump (caller's frame), of which there may be none.
+    ///
+    /// Makes the solid's distance field and surface tree where it has none yet, a field of 8 bytes
+    /// a cell with the depth and the way in which it grows, and with spheres
+    /// another: the depth in solid and union together. Refused: spheres
+    /// that are not finite or have no radius, and what goes beyond the solid's memory limit.
+    pub fn new(solid: Arc<Solid>, spheres: &[Sphere], run: &Run) -> Result<Parent> {
+        run.check(0.0, "measuring the distances of cells")?;
+        let distance = solid.distance(run)?;
+        let surface = solid.surface(run)?;
+        let held = 5 * solid.grid().len() as u64 + surface.bytes();
+        let own = 2 * (CANDIDATES * size_of::<Sphere>()) as u64;
+        let fields = if spheres.is_empty() { 1 } else { 2 };
+        let own = own + fields * field::BYTES * solid.grid().len() as u64;
+        let room = solid.memory_limit().saturating_sub(held);
+        fits(format_args!("a parent of fragments"), own, room)?;
+        let frame = solid.frame();
+        let spheres = collected("spheres", spheres.iter().map(|s| frame.sphere_to_unit(s)))?;
+        run.check(0.2, "looking for what is nearest to cells")?;
+        let field = field::of_solid(solid.grid(), distance, surface, run)?;
+        run.check(0.4, "looking for medial balls")?;
+        let medial = medial(&solid, &field, surface, None, run)?;
+        let mut narrow = None;
+        if !spheres.is_empty() {
+            let union = Union::new(&spheres)?;
+            run.check(0.5, "measuring the depth in the union of the spheres")?;
+            let field = field::narrowed(solid.grid(), &field, &union, run)?;
+            let mut own = self::medial(&solid, &field, surface, Some(&union), run)?;
+            // The spheres themselves, as far as they are within the surface.
+            let room = whole(&solid, &field, surface, Some(&union))?;
+            let kept = spheres.iter().map(|s| room.sphere(s.center));
+            own.extend(kept.filter(|s| s.radius > 0.0));
+            narrow = Some(Narrow { union, field, medial: own });
+        }
+        let sizes = |n: &Narrow| {
+            n.union.bytes() + field::BYTES * n.field.len() as u64 + (32 * n.medial.len()) as u64
+        };
+        let bytes = (32 * (spheres.len() + medial.len())) as u64
+            + field::BYTES * field.len() as u64
+            + narrow.as_ref().map_or(0, sizes);
+        let step = if spheres.is_empty() {
+            None
+        } else {
+            let input = collected("spheres", spheres.iter().map(|s| frame.sphere_to_input(s)))?;
+            Body::of_solid(&solid, 1.0).ok().and_then(|body| step_of(&input, &body))
+        };
+        run.count(|c| c.peak_bytes = c.peak_bytes.max(held + bytes));
+        Ok(Parent { solid, spheres, medial, field, narrow, step, bytes })
+    }
+
+    /// The solid.
+    pub fn solid(&self) -> &Arc<Solid> {
+        &self.solid
+    }
+
+    /// Spheres of the clump, unit frame.
+    pub fn unit_spheres(&self) -> &[Sphere] {
+        &self.spheres
+    }
+
+    /// Bytes that it holds beside the solid.
+    pub fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// The rigid clump's time step for a unit spring, where there are spheres.
+    pub(super) fn step(&self) -> Option<f64> {
+        self.step
+    }
+
+    /// What spheres stay in, the union of the parent's among it if wanted and there are any.
+    pub(super) fn within(&self, union: bool) -> Within<'_> {
+        match self.narrow.as_ref().filter(|_| union) {
+            Some(n) => Within { field: &n.field, union: Some(&n.union), medial: &n.medial },
+            None => Within { field: &self.field, union: None, medial: &self.medial },
+        }
+    }
+}
+
+/// The time step that a rigid clump allows with a spring of stiffness 1.
+pub(super) fn step_of(spheres: &[Sphere], body: &Body) -> Option<f64> {
+    let contact = ContactOptions { contact: Contact::Stiffness(1.0), speed: 0.0, contacts: 1 };
+    time_step(spheres, &[], body, &contact).ok().map(|s| s.clump)
+}
+
+/// The room of the whole solid.
+fn whole<'a>(
+    solid: &'a Solid,
+    field: &'a [Cell],
+    surface: &'a Surface,
+    union: Option<&'a Union>,
+) -> Result<Room<'a>> {
+    let grid = solid.grid();
+    let edges = Vec3::from(grid.dims.map(|n| n as f64)).component_mul(&grid.spacing);
+    let (lo, hi) = (grid.origin, grid.origin + edges);
+    let parts = Parts { grid, field, surface, union, walls: &[], less: 0.0, lo, hi };
+    Room::new(parts, solid.unit_moments().volume)
+}
+
+/// Balls grown from points all over the inside, with their exact depths.
+fn medial(
+    solid: &Solid,
+    field: &[Cell],
+    surface: &Surface,
+    union: Option<&Union>,
+    run: &Run,
+) -> Result<Vec<Sphere>> {
+    let room = whole(solid, field, surface, union)?;
+    let grid = solid.grid();
+    let half = [0, 1, 2].map(|a| (0.5 * grid.dims[a] as f64 * grid.spacing[a]) as f32);
+    let mut random = Random::new(run.seed());
+    let points = spread(&room, &half, CANDIDATES, &mut random, |_| true)?;
+    let chunks: Vec<&[[f32; 3]]> = points.chunks(64).collect();
+    let found = run.pool().map(chunks.len(), |i| {
+        let some = chunks.get(i).copied().unwrap_or_default();
+        let of = |p: &[f32; 3]| room.sphere(room.global(&room.grown(*p).center));
+        some.iter().map(of).collect::<Vec<Sphere>>()
+    });
+    let mut out = reserve("candidates", points.len() + 64)?;
+    out.extend(found.into_iter().flatten().filter(|s| s.radius > 0.0));
+    // In an order by chance, so that the first of those in a fragment are all over it.
+    for i in (1..out.len()).rev() {
+        out.swap(i, (random.unit() * (i + 1) as f32) as usize % (i + 1));
+    }
+    Ok(out)
+}
+
+/// A ball of a room as a sphere of the unit frame, and back.
+pub(super) fn local(s: &Sphere, middle: &Vec3) -> Ball {
+    let c = s.center - middle;
+    Ball { center: [c.x as f32, c.y as f32, c.z as f32], radius: s.radius as f32 }
+}
