@@ -103,6 +103,8 @@ for code in liggghts yade; do
     [ "$all_codes" = yes ] && why="the package $code cannot be installed" || why="run with --all-codes"
     skip "what $code reads" "$why"
 done
+skip "what MercuryDPM, Chrono DEM-Engine, MFiX and Kratos read" "Debian has none of them"
+skip "what PFC and EDEM read" "they are not to be had freely"
 # The dev profile: optimised, with debug assertions.
 step "cargo test" cargo test --locked --no-fail-fast
 
