@@ -4,22 +4,30 @@
 //! is cut out of the first parent's own surface or cells by its half-spaces: nothing is cut out of
 //! something that was cut, so nothing drifts.
 
+mod blocks;
+mod by_cells;
+mod cap;
+mod cells;
 mod climb;
+mod clip;
 mod cloud;
+mod cut;
 mod field;
 mod grow;
 mod map;
-#[allow(dead_code)]
 mod mark;
 mod motion;
 mod parent;
+mod parts;
+mod piece;
 mod reclump;
-#[allow(dead_code)]
 mod region;
 mod room;
 mod spread;
 mod union;
 
+pub use cells::Cut;
+pub use cut::{CutOptions, Dust, Fragments, cut, cut_region, shape};
 pub use grow::{grow, grown_radii};
 pub use map::ParentMap;
 pub use mark::Mark;

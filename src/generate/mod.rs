@@ -19,6 +19,7 @@ use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
 use crate::solid::Solid;
 pub(crate) use balls::Plane;
+pub(crate) use balls::random::Random;
 pub use baselines::OVERLAP;
 pub use best::{BestOptions, Effort, HalfSpace, Symmetry};
 pub use cover::CoverOptions;

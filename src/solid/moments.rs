@@ -192,8 +192,8 @@ fn of_polyhedron(mesh: &Mesh, middle: &Vec3, run: &Run) -> Moments {
 
 /// Integrals over a body: 1, x, and xx, yy, zz, xy, xz, yz.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    volume: f64,
+pub(crate) struct Sums {
+    pub(crate) volume: f64,
     first: Vec3,
     second: [f64; 6],
 }
@@ -211,7 +211,8 @@ impl Sums {
     }
 
     /// Adds the tetrahedron between the origin and a face.
-    fn tetrahedron(&mut self, corners: [Vec3; 3]) {
+    #[inline]
+    pub(crate) fn tetrahedron(&mut self, corners: [Vec3; 3]) {
         let (det, s) = self.place(&corners);
         let [a, b, c] = corners;
         let share = det / 120.0;
@@ -221,8 +222,39 @@ impl Sums {
         }
     }
 
+    /// Adds a box.
+    pub(crate) fn cuboid(&mut self, lo: &Vec3, hi: &Vec3) {
+        let (edges, x) = (hi - lo, (lo + hi) * 0.5);
+        let volume = edges.x * edges.y * edges.z;
+        self.volume += volume;
+        self.first += x * volume;
+        for (k, (i, j)) in PAIRS.into_iter().enumerate() {
+            let own = if i == j { edges[i] * edges[i] / 12.0 } else { 0.0 };
+            self.second[k] += (x[i] * x[j] + own) * volume;
+        }
+    }
+
+    /// The same integrals about a point from which the former one lies `by` away.
+    pub(crate) fn shifted(&self, by: &Vec3) -> Sums {
+        let mut second = self.second;
+        for (k, (i, j)) in PAIRS.into_iter().enumerate() {
+            second[k] +=
+                self.first[i] * by[j] + by[i] * self.first[j] + by[i] * by[j] * self.volume;
+        }
+        Sums { volume: self.volume, first: self.first + by * self.volume, second }
+    }
+
+    /// The same integrals times a number.
+    pub(crate) fn times(&self, by: f64) -> Sums {
+        Sums {
+            volume: self.volume * by,
+            first: self.first * by,
+            second: self.second.map(|s| s * by),
+        }
+    }
+
     /// Adds the part from `t[0]` to `t[1]` of the column at `uv`.
-    fn column(&mut self, c: &Lattice, uv: [f64; 2], t: [f64; 2]) {
+    pub(crate) fn column(&mut self, c: &Lattice, uv: [f64; 2], t: [f64; 2]) {
         let length = t[1] - t[0];
         let volume = length * c.area();
         let (p, q) = ((c.axis + 1) % 3, (c.axis + 2) % 3);
@@ -245,7 +277,7 @@ impl Sums {
         }
     }
 
-    fn add(&mut self, other: &Sums) {
+    pub(crate) fn add(&mut self, other: &Sums) {
         self.volume += other.volume;
         self.first += other.first;
         for k in 0..6 {
@@ -254,7 +286,7 @@ impl Sums {
     }
 
     /// The moments of a body whose integrals are taken about `about`.
-    fn moments(&self, about: &Vec3) -> Moments {
+    pub(crate) fn moments(&self, about: &Vec3) -> Moments {
         let c = if self.volume != 0.0 { self.first / self.volume } else { Vec3::zeros() };
         let mut second = self.second;
         for (k, (i, j)) in PAIRS.into_iter().enumerate() {
@@ -271,6 +303,28 @@ impl Sums {
 
 /// The order of second moments.
 const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
+
+/// How the moments of a solid's mesh were found: nothing for the polyhedral integrals, else the
+/// lattices of the columns along the three axes.
+pub(crate) fn lattices(
+    mesh: &Mesh,
+    found: &Moments,
+    limit: u64,
+    run: &Run,
+) -> Result<Option<[Lattice; 3]>> {
+    let Some((lo, hi)) = bounds(mesh) else {
+        return Err(Error::Empty("the mesh has no face".into()));
+    };
+    let n = if !(mesh.clean || border(mesh)?.is_empty()) {
+        if wide_open(mesh, limit, run)? { WIDE_OPEN } else { OPEN }
+    } else if of_polyhedron(mesh, &((lo + hi) * 0.5), run).volume == found.volume {
+        return Ok(None);
+    } else {
+        CLOSED
+    };
+    let of = |axis| lattice(axis, [lo, hi], n, n > OPEN);
+    Ok(Some([of(0)?, of(1)?, of(2)?]))
+}
 
 /// `n` × `n` columns over the box `lo`, `hi`: slanted, so that faces parallel to an axis are
 /// sampled as evenly as others; or straight, and half as many, for open meshes.

@@ -5,33 +5,33 @@ use rand_pcg::rand_core::Rng;
 
 /// A stream of random numbers.
 #[derive(Debug, Clone)]
-pub(in crate::generate) struct Random(Pcg64);
+pub(crate) struct Random(Pcg64);
 
 impl Random {
     /// The stream `stream` of `seed`: streams of one seed have nothing in common.
-    pub(in crate::generate) fn new(seed: u64, stream: u64) -> Random {
+    pub(crate) fn new(seed: u64, stream: u64) -> Random {
         let (low, high) = (mix(seed ^ mix(stream)), mix(stream ^ mix(!seed)));
         Random(Pcg64::new(u128::from(low) | u128::from(high) << 64, u128::from(stream)))
     }
 
     /// From 0 to 1, without 1.
-    pub(in crate::generate) fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
     }
 
     /// Between two numbers.
-    pub(in crate::generate) fn between(&mut self, lo: f64, hi: f64) -> f64 {
+    pub(crate) fn between(&mut self, lo: f64, hi: f64) -> f64 {
         lo + (hi - lo) * self.unit()
     }
 
     /// One of `n` numbers from 0; `n` is at least 1.
-    pub(in crate::generate) fn below(&mut self, n: usize) -> usize {
+    pub(crate) fn below(&mut self, n: usize) -> usize {
         ((self.unit() * n as f64) as usize).min(n.saturating_sub(1))
     }
 
     /// A rotation, uniform over all of them, by rows (Shoemake 1992, with points of the disc by
     /// rejection, so that only correctly rounded functions are used).
-    pub(in crate::generate) fn rotation(&mut self) -> [[f32; 3]; 3] {
+    pub(crate) fn rotation(&mut self) -> [[f32; 3]; 3] {
         let mut disc = || loop {
             let (x, y) = (self.between(-1.0, 1.0), self.between(-1.0, 1.0));
             let s = x * x + y * y;

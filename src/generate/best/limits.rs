@@ -1,7 +1,7 @@
 //! What spheres keep within: half-spaces, a distance beyond the surface, radii. While a clump is
 //! looked for by the field in single precision, at its end exactly.
 
-use super::options::BestOptions;
+use super::options::{BestOptions, HalfSpace};
 use super::refine::Radii;
 use crate::error::{Result, reserve};
 use crate::generate::ball::Ball;
@@ -26,24 +26,7 @@ const FAR: f64 = 1e6;
 
 /// The half-spaces asked for.
 pub(super) fn planes(options: &BestOptions, frame: &UnitFrame) -> Vec<Plane> {
-    let each = options.half_spaces.iter().map(|h| {
-        let (normal, offset) = unit(&h.normal, h.offset);
-        let offset = (offset - normal.dot(&frame.offset)) / frame.scale;
-        Plane { normal, offset: offset.clamp(-FAR, FAR) }
-    });
-    each.collect()
-}
-
-/// The same half-space with a normal of length 1.
-fn unit(normal: &Vec3, offset: f64) -> (Vec3, f64) {
-    // By parts: squares of the caller's lengths may overflow or vanish.
-    let most = normal.amax();
-    let part = normal / most;
-    let norm = part.norm();
-    // Offsets that would overflow are far beyond any body.
-    let far = offset.abs() * 1e-290 > most;
-    let offset = if far { 1e290 * offset.signum() } else { offset / most / norm };
-    (part / norm, offset)
+    options.half_spaces.iter().map(|h| h.plane(frame)).collect()
 }
 
 /// What balls keep within while the clump is looked for.
@@ -221,7 +204,7 @@ impl<'a> Exact<'a> {
             None
         };
         let mut planes = reserve("half-spaces", options.half_spaces.len())?;
-        planes.extend(options.half_spaces.iter().map(|h| unit(&h.normal, h.offset)));
+        planes.extend(options.half_spaces.iter().map(HalfSpace::unit));
         let least = least.max(asked);
         Ok(Exact { frame, planes, protrusion, most: options.max_radius, asked, least })
     }

@@ -2,7 +2,8 @@
 //! of spheres.
 
 use crate::error::{Error, Result, figure};
-use crate::math::Vec3;
+use crate::generate::balls::Plane;
+use crate::math::{UnitFrame, Vec3};
 
 /// The points p with normal · p ≤ offset, in the caller's unit and frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,6 +12,38 @@ pub struct HalfSpace {
     pub normal: Vec3,
     /// normal · p of the points on its plane.
     pub offset: f64,
+}
+
+impl HalfSpace {
+    /// Whether the half-space of the number `i` is one.
+    pub(crate) fn check(&self, i: usize) -> Result<()> {
+        if !self.offset.is_finite() {
+            return Err(Error::InvalidArgument(format!(
+                "half-space {i} has the offset {}, not a number",
+                figure(self.offset)
+            )));
+        }
+        direction(&self.normal, "half-space", i)
+    }
+
+    /// The same one with a normal of length 1.
+    pub(crate) fn unit(&self) -> (Vec3, f64) {
+        // By parts: squares of the caller's lengths may overflow or vanish.
+        let most = self.normal.amax();
+        let part = self.normal / most;
+        let norm = part.norm();
+        // Offsets that would overflow are far beyond any body.
+        let far = self.offset.abs() * 1e-290 > most;
+        let offset = if far { 1e290 * self.offset.signum() } else { self.offset / most / norm };
+        (part / norm, offset)
+    }
+
+    /// The same one in the unit frame.
+    pub(crate) fn plane(&self, frame: &UnitFrame) -> Plane {
+        let (normal, offset) = self.unit();
+        let offset = (offset - normal.dot(&frame.offset)) / frame.scale;
+        Plane { normal, offset: offset.clamp(-FAR, FAR) }
+    }
 }
 
 /// Which symmetry a clump has exactly.
@@ -27,6 +60,9 @@ pub enum Symmetry {
     /// spheres and their images cannot be as many as asked for, they are fewer.
     Planes(Vec<Vec3>),
 }
+
+/// Beyond so many sizes a plane says nothing more.
+const FAR: f64 = 1e6;
 
 /// Above it, a weight leaves nothing of the rest to single precision.
 const MOST_WEIGHT: f64 = 1e6;
@@ -112,13 +148,7 @@ impl BestOptions {
             )));
         }
         for (i, h) in self.half_spaces.iter().enumerate() {
-            if !h.offset.is_finite() {
-                return Err(Error::InvalidArgument(format!(
-                    "half-space {i} has the offset {}, not a number",
-                    figure(h.offset)
-                )));
-            }
-            direction(&h.normal, "half-space", i)?;
+            h.check(i)?;
         }
         if let Symmetry::Planes(normals) = &self.symmetry {
             for (i, n) in normals.iter().enumerate() {

@@ -1,0 +1,187 @@
+//! Pieces of voxels, of open meshes and of those that cross themselves: against the same body as
+//! a closed mesh, against formulas; and what they add up to.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod common;
+
+use common::{Arrays, cuboid, join, solid_of, solid_of_mesh, sphere};
+use morula::fragment::{Cut, CutOptions, Fragments, cut, cut_region};
+use morula::generate::HalfSpace;
+use morula::math::{Moments, Vec3};
+use morula::shape::{ImportOptions, Layout, Shape};
+use morula::{Run, Solid};
+use std::f64::consts::PI;
+
+fn plane(normal: [f64; 3], offset: f64) -> HalfSpace {
+    HalfSpace { normal: Vec3::from(normal), offset }
+}
+
+fn made(solid: &Solid, by: &Cut) -> Fragments {
+    cut(solid, by, &CutOptions::default(), &Run::serial()).unwrap()
+}
+
+fn pieces(solid: &Solid, f: &Fragments) -> Vec<Moments> {
+    let regions = f.regions.iter().map(|r| r.moments(solid.frame()));
+    regions.chain(f.dust.iter().map(|d| d.moments)).collect()
+}
+
+/// By how much the moments of parts, together, differ from those of the whole.
+fn lack(whole: &Moments, parts: &[Moments]) -> f64 {
+    let volume: f64 = parts.iter().map(|p| p.volume).sum();
+    let first = parts.iter().map(|p| (p.centroid - whole.centroid) * p.volume).sum::<Vec3>();
+    let inertia = parts.iter().fold(nalgebra::Matrix3::zeros(), |sum, p| {
+        sum + p.inertia.shifted(p.volume, &(p.centroid - whole.centroid)).matrix()
+    });
+    let most = whole.inertia.matrix().amax();
+    ((volume - whole.volume) / whole.volume)
+        .abs()
+        .max(first.norm() / whole.volume.powf(4.0 / 3.0))
+        .max((inertia - whole.inertia.matrix()).amax() / most)
+}
+
+/// Cells of 1/8 for which `f` holds of their middles, in a cube of `n` cells.
+fn voxels(n: usize, f: impl Fn([f64; 3]) -> bool) -> Solid {
+    let at = |i: usize| (i as f64 + 0.5) / 8.0;
+    let cell = |c: usize| u8::from(f([at(c % n), at(c / n % n), at(c / (n * n))]));
+    let cells: Vec<u8> = (0..n * n * n).map(cell).collect();
+    let layout = Layout { dims: [n; 3], spacing: [0.125; 3], origin: [0.0; 3] };
+    let options = ImportOptions { bodies: morula::shape::Bodies::All, ..Default::default() };
+    solid_of(&Shape::from_mask(&cells, &layout, &options, &Run::serial()).unwrap(), 16)
+}
+
+#[test]
+fn a_box_of_cells_is_cut_as_a_box() {
+    let mesh = solid_of_mesh(&cuboid([0.0; 3], [2.0, 1.0, 1.5]), 16);
+    let cells = voxels(16, |[x, y, z]| x < 2.0 && y < 1.0 && z < 1.5);
+    for by in [
+        Cut::Planes(vec![plane([0.3, 0.5, -0.7], 0.1), plane([1.0, 0.1, 0.2], 0.9)]),
+        Cut::Planes(vec![plane([1.0, 0.0, 0.0], 0.75), plane([0.0, 0.0, 1.0], 0.7)]),
+        Cut::Seeded { count: 1 },
+        Cut::Points {
+            points: [[0.3, 0.2, 0.4], [1.1, 0.8, 0.9], [1.8, 0.3, 0.2]].map(Vec3::from).to_vec(),
+            weights: vec![0.0, 0.1, 0.05],
+        },
+    ] {
+        let (f, g) = (made(&mesh, &by), made(&cells, &by));
+        assert_eq!(f.regions.len(), g.regions.len(), "{:?}", g.notes);
+        for (r, s) in f.regions.iter().zip(&g.regions) {
+            let (a, b) = (r.moments(mesh.frame()), s.moments(cells.frame()));
+            assert!(lack(&a, &[b]) < 1e-12, "{}", lack(&a, &[b]));
+            assert_eq!(r.cell(), s.cell());
+        }
+        assert!(lack(&cells.moments(), &pieces(&cells, &g)) < 1e-12);
+    }
+}
+
+#[test]
+fn cells_that_a_plane_parts_are_regions_of_their_own() {
+    // Two prongs on a bottom, and a cell that hangs on by an edge.
+    let u = |[x, y, z]: [f64; 3]| {
+        let prong = !(0.75..1.25).contains(&x) && x < 2.0;
+        y < 0.5 && (z < 0.5 && x < 2.0 || prong && z < 1.5)
+    };
+    let solid = voxels(16, u);
+    let f = made(&solid, &Cut::Planes(vec![plane([0.05, 0.0, 1.0], 1.03)]));
+    assert_eq!(f.regions.len(), 3);
+    assert!(lack(&solid.moments(), &pieces(&solid, &f)) < 1e-12);
+    assert!(f.regions.iter().all(|r| r.bytes() <= 48 << 10));
+    // Each prong: what is between the plane and the top.
+    for r in f.regions.iter().filter(|r| r.cell() == 1) {
+        let [lo, hi] = r.bounds(solid.frame());
+        let middle = 0.5 * (lo.x + hi.x);
+        let volume = 0.75 * 0.5 * (1.5 - (1.03 - 0.05 * middle));
+        assert!((r.moments(solid.frame()).volume - volume).abs() < 1e-13);
+    }
+    // A prong again, and again.
+    let mut prong = f.regions[2].clone();
+    for i in 0..6 {
+        let m = prong.moments(solid.frame());
+        let n = Vec3::new(f64::from(i % 3), 1.0, f64::from(i % 2) - 0.3);
+        let by = Cut::Planes(vec![HalfSpace { normal: n, offset: n.dot(&m.centroid) }]);
+        let g = cut_region(&solid, &prong, &by, &CutOptions::default(), &Run::serial()).unwrap();
+        assert_eq!(g.regions.len(), 2);
+        assert!(lack(&m, &pieces(&solid, &g)) < 1e-12, "{i}");
+        prong = g.regions[1].clone();
+    }
+    // Cells that touch along an edge alone are not one, and neither are those whose common face
+    // lies beyond the plane.
+    let corner = voxels(8, |[x, y, z]| z < 0.5 && (x < 0.5) == (y < 0.5));
+    let f = made(&corner, &Cut::Planes(vec![plane([0.0, 0.0, 1.0], 0.3)]));
+    assert_eq!(f.regions.len(), 4);
+    let two = voxels(8, |[x, y, z]| y < 0.125 && z < 0.125 && x < 0.25);
+    let f = made(&two, &Cut::Planes(vec![plane([1.0, 0.0, 0.0], 0.125)]));
+    assert_eq!(f.regions.len(), 2);
+}
+
+#[test]
+fn a_ball_of_cells_in_random_pieces() {
+    let ball = |[x, y, z]: [f64; 3]| (Vec3::new(x, y, z) - Vec3::repeat(1.0)).norm() < 0.95;
+    let solid = voxels(16, ball);
+    for seed in 0..4 {
+        let of = |threads| {
+            let run = Run::new(threads).unwrap().with_seed(seed);
+            cut(&solid, &Cut::Seeded { count: 9 }, &CutOptions::default(), &run).unwrap()
+        };
+        let f = of(1);
+        assert_eq!(f, of(3));
+        assert!(f.regions.len() >= 9);
+        assert!(lack(&solid.moments(), &pieces(&solid, &f)) < 1e-12);
+    }
+}
+
+/// Two balls that cross.
+fn crossing() -> Arrays {
+    join(&[sphere(48, 96, 1.0, [0.0; 3]), sphere(48, 96, 1.0, [1.2, 0.0, 0.0])])
+}
+
+#[test]
+fn crossing_balls_add_up() {
+    let solid = solid_of_mesh(&crossing(), 32);
+    let whole = solid.moments();
+    assert!(whole.relative_error > 0.0);
+    for n in [[1.0, 0.0, 0.0], [0.3, 0.4, -0.8]] {
+        let n = Vec3::from(n).normalize();
+        let by = Cut::Planes(vec![HalfSpace { normal: n, offset: n.dot(&whole.centroid) }]);
+        let f = made(&solid, &by);
+        assert_eq!(f.regions.len(), 2);
+        assert!(lack(&whole, &pieces(&solid, &f)) < 1e-12);
+        for r in &f.regions {
+            let m = r.moments(solid.frame());
+            // Half of two balls less their lens, by symmetry.
+            let lens = PI / 12.0 * 5.2 * 0.8f64.powi(2);
+            let volume = 4.0 / 3.0 * PI - 0.5 * lens;
+            assert!((m.volume / volume - 1.0).abs() < 5e-3, "{}", m.volume / volume);
+            assert!(m.relative_error > 0.0);
+        }
+    }
+    // Both caps at once: two components of one cell.
+    let by = Cut::Planes(vec![plane([0.0, 0.0, 1.0], 0.85)]);
+    let f = made(&solid, &by);
+    assert_eq!(f.regions.len(), 3, "{:?}", f.notes);
+    assert!(lack(&whole, &pieces(&solid, &f)) < 1e-12);
+    let cap = PI * 0.15 * 0.15 * (3.0 - 0.15) / 3.0;
+    for r in f.regions.iter().filter(|r| r.cell() == 1) {
+        assert!((r.moments(solid.frame()).volume / cap - 1.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn a_box_without_a_lid_adds_up() {
+    let (v, mut f) = cuboid([0.0; 3], [1.0, 1.0, 1.0]);
+    f.drain(2..4);
+    let solid = solid_of_mesh(&(v, f), 24);
+    let whole = solid.moments();
+    let f =
+        made(&solid, &Cut::Planes(vec![plane([1.0, 0.0, 0.3], 0.6), plane([0.0, 1.0, 0.0], 0.5)]));
+    assert_eq!(f.regions.len(), 4);
+    assert!(lack(&whole, &pieces(&solid, &f)) < 1e-12);
+    let g = cut_region(
+        &solid,
+        &f.regions[0],
+        &Cut::Seeded { count: 3 },
+        &CutOptions::default(),
+        &Run::serial(),
+    )
+    .unwrap();
+    assert!(lack(&f.regions[0].moments(solid.frame()), &pieces(&solid, &g)) < 1e-12);
+}
