@@ -5,7 +5,7 @@ use crate::measure::Quality;
 use crate::run::Counters;
 
 /// Why a generator stopped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum Stopped {
     /// The number of spheres asked for was reached.
     Spheres,
@@ -39,7 +39,7 @@ impl Stopped {
 }
 
 /// A clump.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Clump {
     /// Component spheres in the caller's frame, in the order in which the method chose them, or
     /// by falling radius where it makes all at once.
@@ -52,5 +52,6 @@ pub struct Clump {
     /// Quality, when it was wanted.
     pub quality: Option<Quality>,
     /// What the call did.
+    #[serde(skip)]
     pub counters: Counters,
 }

@@ -5,9 +5,10 @@
 //! [`shape`] (what the user hands in) → [`solid`] (signed distance and exact
 //! moments) → [`measure`] (how far a clump is from its solid) → [`clump`] (the
 //! result) → [`generate`] (the methods that make it) and [`mass`] (what a solver
-//! takes of it) → [`fragment`] (pieces of a solid that breaks) and `export` (files that
-//! DEM codes read; with the feature `io`). A module imports only from those before it,
-//! `mass` not from `generate` and `export` not from `fragment`.
+//! takes of it) → [`fragment`] (pieces of a solid that breaks), `export` (files that
+//! DEM codes read; with the feature `io`) and [`serial`] (bytes for another rank or a
+//! restart). A module imports only from those before it, `mass` not from `generate` and
+//! `export` not from `fragment`.
 //! [`ffi`] is the C ABI and the only `unsafe`.
 //!
 //! The library is unit-free: lengths are in the caller's unit, moments are per
@@ -24,6 +25,7 @@ pub mod mass;
 pub mod math;
 pub mod measure;
 pub mod run;
+pub mod serial;
 pub mod shape;
 pub mod solid;
 

@@ -5,7 +5,7 @@ use super::{Inertia, Moments, Sphere, Vec3};
 /// longest edge lies in (0.5, 1]. Scaling the input by 2^k, or shifting it by
 /// an amount that its coordinates represent exactly, leaves every bit of the
 /// unit-frame shape as it was.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct UnitFrame {
     /// Lower corner of the bounding box, in the caller's frame.
     pub offset: Vec3,

@@ -3,7 +3,7 @@ use nalgebra::Matrix3;
 
 /// A symmetric inertia tensor, order `xx, yy, zz, xy, xz, yz`; the products
 /// carry their sign: `xy = −∫ x y dm`, so these are the tensor's own entries.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Inertia {
     /// ∫ (y² + z²) dm
     pub xx: f64,
@@ -60,7 +60,7 @@ impl Inertia {
 }
 
 /// Volume, centroid and inertia about the centroid, at unit density.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Moments {
     /// Volume.
     pub volume: f64,

@@ -1,7 +1,7 @@
 use super::Vec3;
 
 /// A component sphere of a clump.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sphere {
     /// Centre.
     pub center: Vec3,

@@ -38,7 +38,7 @@ impl Default for QualityOptions {
 
 /// The quality of a clump. Lengths, areas and volumes in the caller's unit.
 /// What was not asked for is 0 or empty.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Quality {
     /// D = 1 − 2|S∩C| / (|S|+|C|) (Buchele et al. 2026, eq 27).
     pub mismatch: f64,

@@ -17,7 +17,7 @@ pub use report::Report;
 pub use silhouettes::{Carve, Silhouette};
 pub use voxels::{Layout, Voxels};
 
-use crate::error::figure;
+use crate::error::{Result, figure};
 use crate::math::UnitFrame;
 use std::sync::Arc;
 
@@ -68,12 +68,22 @@ impl ImportOptions {
 }
 
 /// The body of a shape, in the unit frame.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Body {
     /// A triangle mesh.
     Mesh(Mesh),
     /// Solid cells.
     Voxels(Voxels),
+}
+
+impl Body {
+    /// Whether it is a body as checks leave them: for bytes that come from outside.
+    pub(crate) fn check(&self) -> Result<()> {
+        match self {
+            Body::Mesh(mesh) => mesh.check(),
+            Body::Voxels(voxels) => voxels.check(),
+        }
+    }
 }
 
 /// A checked shape: something with an inside.

@@ -2,7 +2,7 @@
 
 /// What was found in an input and what was done about it. Lengths, areas and
 /// volumes are in the caller's unit and frame.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Report {
     /// Vertices as handed in.
     pub input_vertices: u64,

@@ -24,7 +24,7 @@ use std::sync::Arc;
 use topology::Edges;
 
 /// A triangle mesh after checks, in the unit frame.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Mesh {
     /// Vertices.
     pub vertices: Vec<Vec3>,
@@ -41,6 +41,27 @@ impl Mesh {
     pub fn corners(&self, i: usize) -> [Vec3; 3] {
         let [a, b, c] = self.faces[i];
         [self.vertices[a as usize], self.vertices[b as usize], self.vertices[c as usize]]
+    }
+
+    /// Whether its numbers are those of a mesh after checks.
+    pub(crate) fn check(&self) -> Result<()> {
+        check::indices(&self.faces, self.vertices.len())?;
+        let far = |v: &Vec3| !v.iter().all(|x| (-1.0..=2.0).contains(x));
+        if let Some(i) = self.vertices.iter().position(far) {
+            let v = self.vertices[i];
+            return Err(Error::InvalidArgument(format!(
+                "vertex {i} at {}, {}, {} is not in the unit frame",
+                v.x, v.y, v.z
+            )));
+        }
+        if self.faces.is_empty() {
+            return Err(Error::Empty("a mesh without a face".into()));
+        }
+        let edges = Edges::of(&self.faces)?;
+        if self.clean && edges.faulty() + edges.misoriented > 0 {
+            return Err(Error::InvalidArgument("a closed mesh that is not closed".into()));
+        }
+        Ok(())
     }
 }
 

@@ -1,6 +1,7 @@
 //! Voxels from arrays: masks, grey volumes, labels. Every way in ends in
 //! `mask::build`, which finds the bodies, crops and reports.
 
+mod bits;
 mod bodies;
 mod grey;
 mod labels;
@@ -29,7 +30,7 @@ pub struct Layout {
 
 /// Solid cells after checks, in the unit frame, cropped to the body's bounding
 /// box: no padding is kept here, the solid adds its own.
-#[derive(Clone)]
+#[derive(Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Voxels {
     /// Cells along x, y, z.
     pub dims: [usize; 3],
@@ -37,7 +38,30 @@ pub struct Voxels {
     pub spacing: Vec3,
     /// 1 for solid cells, 0 elsewhere; x fastest. The lower corner of the first cell is the
     /// unit frame's origin.
+    #[serde(with = "bits")]
     pub cells: Vec<u8>,
+}
+
+impl Voxels {
+    /// Whether its numbers are those of cells after checks.
+    pub(crate) fn check(&self) -> Result<()> {
+        let [nx, ny, nz] = self.dims;
+        let count = nx.checked_mul(ny).and_then(|n| n.checked_mul(nz));
+        if count != Some(self.cells.len()) {
+            return Err(Error::InvalidArgument(format!(
+                "{} cells in a grid of {nx} × {ny} × {nz}",
+                self.cells.len()
+            )));
+        }
+        if !self.cells.contains(&1) {
+            return Err(Error::Empty("no solid cell".into()));
+        }
+        if !self.spacing.iter().all(|x| x.is_normal() && (0.0..=1.0).contains(x)) {
+            let s = self.spacing;
+            return Err(Error::InvalidArgument(format!("cells of {} × {} × {}", s.x, s.y, s.z)));
+        }
+        Ok(())
+    }
 }
 
 impl std::fmt::Debug for Voxels {
