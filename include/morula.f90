@@ -385,6 +385,8 @@ module morula
 
   public :: morula_version, morula_version_string, morula_status_name, morula_last_error_message
   public :: morula_sizeof, morula_set_log, morula_import_options_init, morula_shape_from_mesh
+  public :: morula_shape_serialize, morula_shape_deserialize
+  public :: morula_clump_serialize, morula_clump_deserialize
   public :: morula_shape_free, morula_shape_report, morula_shape_note_count
   public :: morula_shape_copy_note, morula_shape_moments, morula_file_options_init
   public :: morula_shape_from_file, morula_shape_from_bytes, morula_shape_from_mask
@@ -1061,6 +1063,36 @@ module morula
       integer(c_int8_t), intent(inout) :: bytes(*)
       integer(c_int32_t) :: r
     end function morula_files_copy_bytes
+    function morula_shape_serialize(shape, capacity, bytes, size) bind(c) result(r)
+      import
+      type(c_ptr), value :: shape
+      integer(c_size_t), value :: capacity
+      integer(c_int8_t), intent(inout), optional :: bytes(*)
+      integer(c_size_t), intent(out), optional :: size
+      integer(c_int32_t) :: r
+    end function morula_shape_serialize
+    function morula_shape_deserialize(bytes, size, shape) bind(c) result(r)
+      import
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: size
+      type(c_ptr), intent(out) :: shape
+      integer(c_int32_t) :: r
+    end function morula_shape_deserialize
+    function morula_clump_serialize(clump, capacity, bytes, size) bind(c) result(r)
+      import
+      type(c_ptr), value :: clump
+      integer(c_size_t), value :: capacity
+      integer(c_int8_t), intent(inout), optional :: bytes(*)
+      integer(c_size_t), intent(out), optional :: size
+      integer(c_int32_t) :: r
+    end function morula_clump_serialize
+    function morula_clump_deserialize(bytes, size, clump) bind(c) result(r)
+      import
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: size
+      type(c_ptr), intent(out) :: clump
+      integer(c_int32_t) :: r
+    end function morula_clump_deserialize
     subroutine morula_files_free(files) bind(c)
       import
       type(c_ptr), value :: files
@@ -1107,6 +1139,9 @@ module morula
     procedure :: moments => shape_moments
     !> Stage times and counters of what made it.
     procedure :: counters => shape_counters
+    !> As bytes, for another rank or a restart file, and from such bytes.
+    procedure :: serialize => shape_serialize
+    procedure :: deserialize => shape_deserialize
     procedure :: destroy => shape_destroy
     !> The C handle; it stays this variable's.
     procedure :: c_handle => shape_handle
@@ -1158,6 +1193,9 @@ module morula
     procedure :: copy_exposed_areas => clump_copy_exposed_areas
     procedure :: copy_plane_contacts => clump_copy_plane_contacts
     procedure :: counters => clump_counters
+    !> As bytes, for another rank or a restart file, and from such bytes.
+    procedure :: serialize => clump_serialize
+    procedure :: deserialize => clump_deserialize
     procedure :: destroy => clump_destroy
     !> The C handle; it stays this variable's.
     procedure :: c_handle => clump_handle
@@ -1919,6 +1957,52 @@ contains
     text = morula_text(c_loc(buffer))
     call finish(code, status)
   end subroutine clump_note
+
+  subroutine shape_serialize(self, bytes, status)
+    class(morula_shape_t), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(out) :: bytes(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: length
+    integer(c_int32_t) :: code
+    length = 0
+    code = morula_shape_serialize(self%handle, 0_c_size_t, size=length)
+    allocate(bytes(length))
+    if (code == MORULA_STATUS_OK) then
+      code = morula_shape_serialize(self%handle, length, bytes)
+    end if
+    call finish(code, status)
+  end subroutine shape_serialize
+
+  subroutine shape_deserialize(self, bytes, status)
+    class(morula_shape_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_shape_deserialize(bytes, size(bytes, kind=c_size_t), self%handle), status)
+  end subroutine shape_deserialize
+
+  subroutine clump_serialize(self, bytes, status)
+    class(morula_clump_t), intent(in) :: self
+    integer(c_int8_t), allocatable, intent(out) :: bytes(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: length
+    integer(c_int32_t) :: code
+    length = 0
+    code = morula_clump_serialize(self%handle, 0_c_size_t, size=length)
+    allocate(bytes(length))
+    if (code == MORULA_STATUS_OK) then
+      code = morula_clump_serialize(self%handle, length, bytes)
+    end if
+    call finish(code, status)
+  end subroutine clump_serialize
+
+  subroutine clump_deserialize(self, bytes, status)
+    class(morula_clump_t), intent(inout) :: self
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_clump_deserialize(bytes, size(bytes, kind=c_size_t), self%handle), status)
+  end subroutine clump_deserialize
 
   subroutine clump_moments(self, density, moments, status)
     class(morula_clump_t), intent(in) :: self

@@ -1956,6 +1956,49 @@ int32_t morula_files_copy_bytes(const struct morula_files *files,
 /// Threads: no other thread may use the handle.
 void morula_files_free(struct morula_files *files);
 
+/// Writes a shape as bytes, for another rank or a restart file: little-endian, with a version and a
+/// checksum. The same shape gives the same bytes.
+///
+/// Parameters: `bytes` takes `capacity` bytes, or is NULL with a capacity of 0 to learn the size
+/// alone; *size is the number of bytes; `size` may be NULL when `bytes` is not.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL; OUT_OF_MEMORY; INTERNAL.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_shape_serialize(const struct morula_shape *shape,
+                               size_t capacity,
+                               uint8_t *bytes,
+                               size_t *size);
+
+/// Makes the shape again, to the last bit: nothing is checked, welded or repaired anew.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; FORMAT (bytes that are cut short, changed, of
+/// something else or of no shape); UNSUPPORTED (another version);
+/// OUT_OF_MEMORY; INTERNAL.
+/// Ownership: the bytes are copied; free *shape with morula_shape_free(). *shape is written only
+/// on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_shape_deserialize(const uint8_t *bytes,
+                                 size_t size,
+                                 struct morula_shape **shape);
+
+/// Writes a clump as bytes, as morula_shape_serialize() does a shape. The counters of the calls
+/// that made it are left out.
+///
+/// Parameters, returns, threads: as morula_shape_serialize().
+int32_t morula_clump_serialize(const struct morula_clump *clump,
+                               size_t capacity,
+                               uint8_t *bytes,
+                               size_t *size);
+
+/// Makes the clump again, to the last bit; its counters are 0.
+///
+/// Returns: as morula_shape_deserialize().
+/// Ownership: the bytes are copied; free *clump with morula_clump_free(). *clump is written only
+/// on success.
+/// Threads: any thread; calls are independent of each other.
+int32_t morula_clump_deserialize(const uint8_t *bytes,
+                                 size_t size,
+                                 struct morula_clump **clump);
+
 #ifdef __cplusplus
 }  // extern "C"
 #endif  // __cplusplus

@@ -133,6 +133,15 @@ Handle<T> made(Options options, Progress progress, Make make) {
   return handle;
 }
 
+/// The bytes that `write(capacity, bytes, size)` gives.
+template <class Write>
+std::vector<std::uint8_t> bytes(Write write) {
+  std::size_t size = 0;
+  check(write(std::size_t{0}, nullptr, &size));
+  std::vector<std::uint8_t> all(size);
+  check(write(size, all.data(), &size));
+  return all;
+}
 }  // namespace detail
 
 /// morula_import_options with the defaults.
@@ -202,6 +211,18 @@ class Shape {
                           Progress progress = {}) {
     return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
       return morula_shape_from_bytes(bytes.data(), bytes.size(), name.c_str(), &o, &file, out);
+    });
+  }
+  /// What serialize() gave, to the last bit.
+  static Shape deserialize(const std::vector<std::uint8_t> &bytes) {
+    morula_shape *raw = nullptr;
+    check(morula_shape_deserialize(bytes.data(), bytes.size(), &raw));
+    return Shape(detail::Handle<morula_shape>(raw));
+  }
+  /// As bytes, for another rank or a restart file.
+  std::vector<std::uint8_t> serialize() const {
+    return detail::bytes([&](std::size_t capacity, std::uint8_t *to, std::size_t *size) {
+      return morula_shape_serialize(get(), capacity, to, size);
     });
   }
   /// From voxels: those that are not 0 are solid.
@@ -440,6 +461,19 @@ class Clump {
             options, std::move(progress), [&](const auto &o, morula_clump **out) {
               return morula_clump_from_shape(shape.get(), &solid, &o, out);
             })) {}
+
+  /// What serialize() gave, to the last bit; its counters are 0.
+  static Clump deserialize(const std::vector<std::uint8_t> &bytes) {
+    morula_clump *raw = nullptr;
+    check(morula_clump_deserialize(bytes.data(), bytes.size(), &raw));
+    return Clump(detail::Handle<morula_clump>(raw));
+  }
+  /// As bytes, for another rank or a restart file.
+  std::vector<std::uint8_t> serialize() const {
+    return detail::bytes([&](std::size_t capacity, std::uint8_t *to, std::size_t *size) {
+      return morula_clump_serialize(get(), capacity, to, size);
+    });
+  }
 
   std::size_t size() const {
     std::size_t n = 0;

@@ -8,7 +8,7 @@ fn root() -> PathBuf {
 }
 
 /// The header's order of reading.
-const FILES: [&str; 17] = [
+const FILES: [&str; 18] = [
     "status",
     "callbacks",
     "choices",
@@ -26,6 +26,7 @@ const FILES: [&str; 17] = [
     "body",
     "body_read",
     "export",
+    "serial",
 ];
 
 fn generate() -> String {

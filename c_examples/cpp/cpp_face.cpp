@@ -187,6 +187,18 @@ int main() {
   CHECK(std::fabs(morula::Shape::from_bytes(bytes).report().volume - 1.0 / 6) < 1e-12);
   CHECK(morula::Shape::from_primitive("box", {}, 0).report().watertight == 1);
 
+  // As bytes, and back.
+  const auto handed = tablet.serialize();
+  CHECK(morula::Shape::deserialize(handed).serialize() == handed);
+  CHECK(status_of([&] { morula::Shape::deserialize({}); }) == MORULA_STATUS_FORMAT);
+  morula::ClumpOptions three;
+  three.spheres = 3;
+  three.effort = MORULA_EFFORT_DRAFT;
+  const morula::Clump clump(tablet, three);
+  const auto copy = morula::Clump::deserialize(clump.serialize());
+  CHECK(copy.size() == 3 && copy.spheres()[0].radius == clump.spheres()[0].radius);
+  CHECK(copy.overlap().mismatch == clump.overlap().mismatch);
+
   std::printf("%d checks, %d failed\n", made, failed);
   return failed != 0;
 }

@@ -412,6 +412,33 @@ contains
     ! solid goes out of scope
   end subroutine clumps
 
+  !> A shape and a clump as bytes.
+  subroutine handed_on()
+    type(morula_shape_t) :: box, again
+    type(morula_clump_t) :: clump, copy
+    type(morula_clump_options) :: options
+    type(morula_moments) :: m
+    integer(c_int8_t), allocatable :: bytes(:)
+    real(c_double) :: here(4, 3), there(4, 3)
+    integer(c_int32_t) :: status
+    call box%create_from_primitive('box')
+    call box%serialize(bytes)
+    call again%deserialize(bytes)
+    call again%moments(1.0_c_double, m)
+    call check(m%volume > 0, 'a shape comes back')
+    call again%deserialize(bytes(:size(bytes) - 1), status)
+    call check(status == MORULA_STATUS_FORMAT, 'cut short')
+    call morula_init(options)
+    options%effort = MORULA_EFFORT_DRAFT
+    options%spheres = 3
+    call clump%create(box, options)
+    call clump%serialize(bytes)
+    call copy%deserialize(bytes)
+    call clump%copy_spheres(here)
+    call copy%copy_spheres(there)
+    call check(all(abs(here - there) <= 0), 'a clump comes back')
+  end subroutine handed_on
+
   !> Several clumps in one call.
   subroutine several(solid)
     type(morula_solid_t), intent(in) :: solid
@@ -461,6 +488,7 @@ program fortran_api
   call sizes()
   call shapes()
   call clumps()
+  call handed_on()
   call check(lines > 0, 'the sink was called')
   call check(morula_set_log(c_null_funptr, c_null_ptr) == MORULA_STATUS_OK, 'no sink')
   print '(i0, a, i0, a)', made, ' checks, ', failed, ' failed'

@@ -1,0 +1,116 @@
+//! Shapes and clumps as bytes.
+
+use super::clump::morula_clump;
+use super::guard::{borrow, copy_out, give, guard, require, slice};
+use super::shape::morula_shape;
+use crate::error::Result;
+use crate::run::Counters;
+use crate::serial::{ClumpRecord, shape_from_bytes, shape_to_bytes};
+
+/// Copies the bytes and tells how many there are; `bytes` may be NULL with a capacity of 0.
+unsafe fn hand(all: Vec<u8>, capacity: usize, bytes: *mut u8, size: *mut usize) -> Result<()> {
+    if !size.is_null() {
+        require(size, "size")?;
+    }
+    if !(capacity == 0 && bytes.is_null() && !size.is_null()) {
+        unsafe { copy_out(&all, capacity, bytes, "bytes")? };
+    }
+    if !size.is_null() {
+        unsafe { size.write(all.len()) };
+    }
+    Ok(())
+}
+
+/// Writes a shape as bytes, for another rank or a restart file: little-endian, with a version and a
+/// checksum. The same shape gives the same bytes.
+///
+/// Parameters: `bytes` takes `capacity` bytes, or is NULL with a capacity of 0 to learn the size
+/// alone; *size is the number of bytes; `size` may be NULL when `bytes` is not.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL; OUT_OF_MEMORY; INTERNAL.
+/// Threads: may run at the same time as other const functions on this handle.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_serialize(
+    shape: *const morula_shape,
+    capacity: usize,
+    bytes: *mut u8,
+    size: *mut usize,
+) -> i32 {
+    guard(|| {
+        let shape = unsafe { borrow(shape, "shape")? };
+        unsafe { hand(shape_to_bytes(&shape.inner)?, capacity, bytes, size) }
+    })
+}
+
+/// Makes the shape again, to the last bit: nothing is checked, welded or repaired anew.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; FORMAT (bytes that are cut short, changed, of
+/// something else or of no shape); UNSUPPORTED (another version);
+/// OUT_OF_MEMORY; INTERNAL.
+/// Ownership: the bytes are copied; free *shape with morula_shape_free(). *shape is written only
+/// on success.
+/// Threads: any thread; calls are independent of each other.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_shape_deserialize(
+    bytes: *const u8,
+    size: usize,
+    shape: *mut *mut morula_shape,
+) -> i32 {
+    guard(|| {
+        require(shape, "shape")?;
+        let inner = shape_from_bytes(unsafe { slice(bytes, size, "bytes")? })?;
+        unsafe { give(shape, morula_shape { inner, counters: Counters::default() }) };
+        Ok(())
+    })
+}
+
+/// Writes a clump as bytes, as morula_shape_serialize() does a shape. The counters of the calls
+/// that made it are left out.
+///
+/// Parameters, returns, threads: as morula_shape_serialize().
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_clump_serialize(
+    clump: *const morula_clump,
+    capacity: usize,
+    bytes: *mut u8,
+    size: *mut usize,
+) -> i32 {
+    guard(|| {
+        let c = unsafe { borrow(clump, "clump")? };
+        let record = ClumpRecord {
+            clump: c.inner.clone(),
+            given: c.spheres.clone(),
+            wants: c.wants,
+            planes: c.planes,
+            moments: c.target.0,
+            frame: c.target.1,
+        };
+        unsafe { hand(record.to_bytes()?, capacity, bytes, size) }
+    })
+}
+
+/// Makes the clump again, to the last bit; its counters are 0.
+///
+/// Returns: as morula_shape_deserialize().
+/// Ownership: the bytes are copied; free *clump with morula_clump_free(). *clump is written only
+/// on success.
+/// Threads: any thread; calls are independent of each other.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_clump_deserialize(
+    bytes: *const u8,
+    size: usize,
+    clump: *mut *mut morula_clump,
+) -> i32 {
+    guard(|| {
+        require(clump, "clump")?;
+        let r = ClumpRecord::from_bytes(unsafe { slice(bytes, size, "bytes")? })?;
+        let made = morula_clump {
+            inner: r.clump,
+            spheres: r.given,
+            wants: r.wants,
+            planes: r.planes,
+            target: (r.moments, r.frame),
+        };
+        unsafe { give(clump, made) };
+        Ok(())
+    })
+}
