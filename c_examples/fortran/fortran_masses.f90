@@ -89,6 +89,8 @@ program fortran_masses
   call check(status == MORULA_STATUS_INVALID_ARGUMENT, 'no density')
   call check(.not. c_associated(placed%c_handle()), 'nothing is made')
   call body%destroy()
+  call placed%destroy()
+  deallocate (xyzr, single, binding)
   call clump%destroy()
   call shape%destroy()
   print '(i0, a, i0, a)', made, ' checks, ', failed, ' failed'
