@@ -117,6 +117,16 @@ impl<'a> Lookup<'a> {
         }
     }
 
+    /// Whether the nearest cell's centre is inside.
+    pub(super) fn inside(&self, p: &Vec3) -> bool {
+        let strides = [1, self.row, self.layer];
+        let at = (0..3).map(|a| {
+            let u = (p[a] as f32 - self.origin[a]) * self.inverse[a];
+            (u.max(0.0).min(self.last[a]) + 0.5) as usize * strides[a]
+        });
+        self.cells.get(at.sum::<usize>()).is_some_and(|c| c.depth > 0.0)
+    }
+
     /// The depth at a place, clamped to the grid, and the way in which it grows.
     #[inline]
     pub(super) fn at(&self, p: &[f32; 3]) -> (f32, [f32; 3]) {

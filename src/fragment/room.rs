@@ -213,11 +213,15 @@ impl<'a> Room<'a> {
             }
         }
         let less = self.parts.less;
-        if depth <= less || !self.inside(p) {
-            return ((depth - less).min(0.0), out);
+        if depth <= less {
+            return (depth - less, out);
         }
         let to = |q: Vec3, distance: f64| (q - p) * (1.0 / distance.max(1e-300));
-        if let Some(near) = self.parts.surface.nearest_within(p, depth) {
+        let near = self.parts.surface.nearest_within(p, depth);
+        if !self.inside(p, near.map_or(depth, |n| n.distance)) {
+            return (0.0, out);
+        }
+        if let Some(near) = near {
             (depth, out) = (near.distance, to(near.point, near.distance));
         }
         if let Some(union) = self.parts.union {
@@ -261,13 +265,11 @@ impl<'a> Room<'a> {
         best
     }
 
-    /// Whether a place is inside the solid.
-    pub(super) fn inside(&self, p: &Vec3) -> bool {
-        let local = p - self.middle;
-        let (depth, _) = self.lookup.at(&[local.x as f32, local.y as f32, local.z as f32]);
-        // The field is right to a part of a cell.
-        let sure = f64::from(depth) > self.parts.grid.spacing.max();
-        sure || self.parts.surface.contains(p)
+    /// Whether a place is inside the solid; no surface is nearer than `free`.
+    fn inside(&self, p: &Vec3, free: f64) -> bool {
+        // The nearest cell centre is then on the same side.
+        let far = free > HALF_DIAGONAL * self.parts.grid.spacing.max();
+        (far && self.lookup.inside(&(p - self.middle))) || self.parts.surface.contains(p)
     }
 
     /// The half-spaces about the middle.
@@ -276,5 +278,7 @@ impl<'a> Room<'a> {
     }
 }
 
+/// From a place to the nearest cell centre it is at most this, in edges, and a little for rounding.
+const HALF_DIAGONAL: f64 = 0.88;
 /// A fragment smaller than so many cells of its parent's grid is not told by them.
 const FEW_CELLS: f64 = 4.0;
