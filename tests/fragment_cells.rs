@@ -5,7 +5,7 @@
 mod common;
 
 use common::{Arrays, cuboid, join, solid_of, solid_of_mesh, sphere};
-use morula::fragment::{Cut, CutOptions, Fragments, cut, cut_region};
+use morula::fragment::{Cut, CutOptions, Fragments, cut, cut_region, label_solids};
 use morula::generate::HalfSpace;
 use morula::math::{Moments, Vec3};
 use morula::shape::{ImportOptions, Layout, Shape};
@@ -184,4 +184,27 @@ fn a_box_without_a_lid_adds_up() {
     )
     .unwrap();
     assert!(lack(&f.regions[0].moments(solid.frame()), &pieces(&solid, &g)) < 1e-12);
+}
+
+#[test]
+fn labels_are_a_solid_each() {
+    // Label 7 in two places that meet at an edge, label 3 in one, and a single cell of 9.
+    let label = |c: usize| match [c % 8, c / 8 % 8, c / 64] {
+        [i, j, k] if k < 4 && (i < 4) == (j < 4) => 7,
+        [_, _, k] if k > 4 => 3,
+        [7, 0, 0] => 9,
+        _ => 0u32,
+    };
+    let labels: Vec<u32> = (0..512).map(label).collect();
+    let layout = Layout { dims: [8; 3], spacing: [0.5; 3], origin: [1.0; 3] };
+    let solids = Default::default();
+    let run = Run::serial();
+    let options = CutOptions { least_volume: 0.2 };
+    let (made, left, lost) = label_solids(&labels, &layout, &options, &solids, &run).unwrap();
+    assert_eq!((left, lost), (1, 0.125));
+    let found: Vec<(u32, f64)> = made.iter().map(|l| (l.label, l.solid.moments().volume)).collect();
+    assert_eq!(found, [(3, 24.0), (7, 8.0), (7, 8.0)]);
+    assert_eq!(made[2].solid.moments().centroid, Vec3::new(4.0, 4.0, 2.0));
+    let all = label_solids(&labels, &layout, &CutOptions::default(), &solids, &run).unwrap();
+    assert_eq!((all.0.len(), all.1), (4, 0));
 }

@@ -91,7 +91,6 @@ impl Cells {
             }
             Cut::Impact { point, direction, count } => {
                 most(*count)?;
-                finite("the point of impact", point)?;
                 finite("the direction of impact", direction)?;
                 let size = direction.amax();
                 if size == 0.0 {
@@ -99,7 +98,10 @@ impl Cells {
                         "the direction of impact has length 0".into(),
                     ));
                 }
-                let (way, at) = (direction / size, frame.to_unit(point));
+                let about = |e: Error| e.about("the impact");
+                let at =
+                    given(&[*point], frame).map_err(about)?.first().copied().unwrap_or_default();
+                let way = direction / size;
                 let far = Vec3::from_fn(|a, _| (at[a] - lo[a]).abs().max((at[a] - hi[a]).abs()));
                 let far = far.norm();
                 let mut random = Random::new(run.seed(), STREAM + 1);
@@ -267,7 +269,10 @@ fn scaled(points: &[Vec3], weights: &[f64], frame: &UnitFrame) -> Result<Vec<f64
         }
     }
     const FAR: f64 = 1e12;
-    let unit = |w: &f64| (w / frame.scale / frame.scale).clamp(-FAR, FAR);
+    let unit = |w: &f64| {
+        let far = w.abs() > FAR * frame.scale * frame.scale;
+        if far { FAR.copysign(*w) } else { w / frame.scale / frame.scale }
+    };
     collected("weights", weights.iter().map(unit))
 }
 

@@ -83,8 +83,13 @@ fn cut_part(
             figure(least)
         )));
     }
-    let parent = solid.unit_moments().volume;
-    let least = if least > 0.0 { least / solid.frame().scale.powi(3) } else { DUST * parent };
+    let (parent, whole) = (solid.unit_moments().volume, solid.moments().volume);
+    // By shares: a volume in the caller's unit may be far from what numbers hold in another.
+    let least = match least {
+        0.0 => DUST * parent,
+        least if least < whole => least / whole * parent,
+        _ => 2.0 * parent,
+    };
     let mut fragments = Fragments::default();
     let notes = &mut fragments.notes;
     let found = match exact_mesh(solid, run)? {

@@ -1,7 +1,8 @@
 //! A piece of a mesh while planes are cut through it.
 
-use super::cap::{Cap, triangulate};
+use super::cap::Cap;
 use super::clip::{CAP, Side, Surface, View, cut};
+use super::ears::triangulate;
 use super::parts::{Part, Parts};
 use super::{Mark, Region};
 use crate::error::{Error, Result, collected, filled, push, reserve};
