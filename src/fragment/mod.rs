@@ -25,6 +25,7 @@ mod piece;
 mod reclump;
 mod region;
 mod room;
+mod shatter;
 mod spread;
 mod union;
 
@@ -38,4 +39,5 @@ pub use motion::{HandOver, Held, Moving};
 pub use parent::Parent;
 pub use reclump::{Reclump, ReclumpOptions, reclump};
 pub use region::Region;
+pub use shatter::{Crumb, Fragment, Job, ShatterOptions, Shattered, shatter, shatter_many};
 pub use union::Union;
