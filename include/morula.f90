@@ -1862,11 +1862,15 @@ contains
     integer(c_int32_t), intent(inout), contiguous, optional :: statuses(:)
     integer(c_int32_t), intent(out), optional :: status
     type(c_ptr) :: handles(size(clumps)), from(size(shapes))
-    integer(c_int32_t) :: code
-    call empty(clumps, size(shapes), handles, statuses)
+    integer(c_int32_t) :: code, told(size(clumps))
+    call empty(clumps, size(shapes), handles)
+    if (present(statuses)) call as_long(statuses, clumps)
+    told = MORULA_STATUS_OK
+    if (present(statuses)) told = statuses
     from = shapes%handle
     code = morula_clumps_from_shapes(from, size(from, kind=c_size_t), solid_options, &
-      clump_options, handles, statuses)
+      clump_options, handles, told)
+    if (present(statuses)) statuses = told
     clumps%handle = handles
     call finish(code, status)
   end subroutine clumps_from_shapes
@@ -1883,30 +1887,36 @@ contains
     integer(c_int32_t), intent(inout), contiguous, optional :: statuses(:)
     integer(c_int32_t), intent(out), optional :: status
     type(c_ptr) :: handles(size(clumps))
-    integer(c_int32_t) :: code
-    call empty(clumps, size(wanted), handles, statuses)
+    integer(c_int32_t) :: code, told(size(clumps))
+    call empty(clumps, size(wanted), handles)
+    if (present(statuses)) call as_long(statuses, clumps)
+    told = MORULA_STATUS_OK
+    if (present(statuses)) told = statuses
     code = morula_clumps_from_labels(labels, shape(labels, c_size_t), spacing, origin, wanted, &
-      size(wanted, kind=c_size_t), import_options, solid_options, clump_options, handles, statuses)
+      size(wanted, kind=c_size_t), import_options, solid_options, clump_options, handles, told)
+    if (present(statuses)) statuses = told
     clumps%handle = handles
     call finish(code, status)
   end subroutine clumps_from_labels
 
   !> Clumps without content, one for each that is to be made.
-  subroutine empty(clumps, count, handles, statuses)
+  subroutine empty(clumps, count, handles)
     type(morula_clump_t), intent(inout) :: clumps(:)
     integer, intent(in) :: count
     type(c_ptr), intent(out) :: handles(:)
-    integer(c_int32_t), intent(inout), optional :: statuses(:)
     integer :: i
     if (size(clumps) /= count) error stop 'morula: clumps is not as long as what it is made of'
-    if (present(statuses)) then
-      if (size(statuses) /= count) error stop 'morula: statuses is not as long as clumps'
-    end if
     do i = 1, count
       call clumps(i)%destroy()
       handles(i) = c_null_ptr
     end do
   end subroutine empty
+
+  subroutine as_long(statuses, clumps)
+    integer(c_int32_t), intent(in) :: statuses(:)
+    type(morula_clump_t), intent(in) :: clumps(:)
+    if (size(statuses) /= size(clumps)) error stop 'morula: statuses is not as long as clumps'
+  end subroutine as_long
 
   subroutine set_planes(options, planes)
     type(morula_clump_options), intent(inout) :: options
