@@ -30,6 +30,7 @@ int main(void) {
   options.effort = MORULA_EFFORT_DRAFT;
   options.spheres = 9;
   options.frame = MORULA_FRAME_BODY;
+  options.wants = MORULA_WANT_OVERLAP | MORULA_WANT_MOMENTS;
 
   /* A shape: what is made of it there is what is made of it here. */
   uint8_t *bytes = shape_bytes(shape, &size);
