@@ -24,7 +24,7 @@ mod yade;
 
 pub use format::Format;
 pub use record::Record;
-pub use save::save;
+pub use save::{save, save_in};
 pub use surface::{ply, stl};
 pub use table::csv;
 pub use vtp::vtp;

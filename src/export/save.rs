@@ -9,24 +9,34 @@ use std::path::{Path, PathBuf};
 /// that no half-written file has the name asked for. What stands there and is no file (a device, a
 /// pipe) is written to as it is; a link stays one.
 pub fn save(files: &[File], path: &Path) -> Result<()> {
+    let below = |file: &File| matches!(file.place, Place::Below(_));
+    put(files.iter().map(|f| (f.place.of(path), below(f), &f.bytes[..])))
+}
+
+/// Writes files, by their names, into a folder that is made where there is none, in the same way.
+pub fn save_in(folder: &Path, files: &[(String, Vec<u8>)]) -> Result<()> {
+    put(files.iter().map(|(name, bytes)| (folder.join(name), true, &bytes[..])))
+}
+
+/// Each with its path, and whether the path's folder is made.
+fn put<'a>(mut files: impl Iterator<Item = (PathBuf, bool, &'a [u8])>) -> Result<()> {
     let mut made: Vec<(PathBuf, PathBuf)> = Vec::new();
-    let written = files.iter().try_for_each(|file| {
-        let target = file.place.of(path);
+    let written = files.try_for_each(|(target, below, bytes)| {
         let target = fs::canonicalize(&target).unwrap_or(target);
         let said = |e: std::io::Error| Error::Io(format!("{}: {e}", target.display()));
-        if let (Place::Below(_), Some(folder)) = (file.place, target.parent()) {
+        if let (true, Some(folder)) = (below, target.parent()) {
             fs::create_dir_all(folder).map_err(said)?;
         }
         if fs::metadata(&target).is_ok_and(|m| !m.is_file() && !m.is_dir()) {
             let mut out = fs::OpenOptions::new().write(true).open(&target).map_err(said)?;
-            return out.write_all(&file.bytes).and_then(|()| out.flush()).map_err(said);
+            return out.write_all(bytes).and_then(|()| out.flush()).map_err(said);
         }
         if target.is_dir() {
             return Err(Error::Io(format!("{}: a folder has that name", target.display())));
         }
         let (part, mut out) = fresh(&target).map_err(said)?;
         made.push((part, target.clone()));
-        out.write_all(&file.bytes).and_then(|()| out.sync_all()).map_err(said)
+        out.write_all(bytes).and_then(|()| out.sync_all()).map_err(said)
     });
     let renamed = written.and_then(|()| {
         made.iter().try_for_each(|(part, target)| {

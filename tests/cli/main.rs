@@ -5,6 +5,7 @@
 mod clumps;
 mod compare;
 mod failures;
+mod fragments;
 mod masses;
 mod options;
 mod pictures;

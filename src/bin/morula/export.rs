@@ -58,8 +58,9 @@ pub struct Args {
     given: Given,
 }
 
+/// The numbers of a file.
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum Precision {
+pub enum Precision {
     F64,
     F32,
 }

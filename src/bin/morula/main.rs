@@ -4,6 +4,7 @@
 //! status name of the C ABI), 2 wrong usage. A reader that closes our pipe
 //! early ends the program quietly with 0.
 
+mod breaking;
 mod clump;
 mod compare;
 mod covering;
@@ -40,6 +41,8 @@ struct Cli {
 enum Command {
     /// Make a clump of a shape and write its spheres
     Clump(Box<clump::Args>),
+    /// Break a shape into fragments, each with a mesh, spheres, and its share of the motion
+    Break(Box<breaking::Args>),
     /// Say what a shape is: report, moments, principal frame, labels
     Info(Box<info::Args>),
     /// Write a built-in analytic particle as a mesh
@@ -69,6 +72,7 @@ fn main() -> ExitCode {
     };
     let done = match &cli.command {
         Command::Clump(args) => clump::run(args),
+        Command::Break(args) => breaking::run(args),
         Command::Info(args) => info::run(args),
         Command::Sample(args) => sample::run(args),
         Command::Measure(args) => measure::run(args),

@@ -54,6 +54,18 @@ impl Weighing {
         }
     }
 
+    /// What is asked of the masses; none where none are wanted.
+    pub fn options(&self) -> Option<MassOptions> {
+        let objective = match self.masses.unwrap_or(ObjectiveArg::Even) {
+            ObjectiveArg::None => return None,
+            ObjectiveArg::Even => Objective::Even,
+            ObjectiveArg::MaxMin => Objective::MaxMin,
+            ObjectiveArg::MaxLast => Objective::MaxLast,
+        };
+        let infeasible = if self.least_error { Infeasible::LeastError } else { Infeasible::Refuse };
+        Some(MassOptions { objective, m_min: self.min_mass, m_max: self.max_mass, infeasible })
+    }
+
     /// The masses of spheres in the frame of the body's `center`; none where none are wanted.
     pub fn masses(
         &self,
@@ -62,15 +74,7 @@ impl Weighing {
         about: &str,
         run: &Run,
     ) -> Done<Option<Masses>> {
-        let objective = match self.masses.unwrap_or(ObjectiveArg::Even) {
-            ObjectiveArg::None => return Ok(None),
-            ObjectiveArg::Even => Objective::Even,
-            ObjectiveArg::MaxMin => Objective::MaxMin,
-            ObjectiveArg::MaxLast => Objective::MaxLast,
-        };
-        let infeasible = if self.least_error { Infeasible::LeastError } else { Infeasible::Refuse };
-        let options =
-            MassOptions { objective, m_min: self.min_mass, m_max: self.max_mass, infeasible };
+        let Some(options) = self.options() else { return Ok(None) };
         let masses = correct(spheres, body, &options, run).map_err(|error| match error {
             Error::NoMasses(text) => Error::NoMasses(format!(
                 "{text} (--least-error keeps the total mass, --masses none leaves masses out)"

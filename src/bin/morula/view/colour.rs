@@ -7,6 +7,18 @@ pub fn body() -> Rgb {
     srgb(206, 196, 178)
 }
 
+/// One of many things, told from those of the numbers before and after.
+pub fn of_number(i: usize) -> Rgb {
+    // Hues a golden angle apart; each third one lighter.
+    let hue = (0.56 + 0.618_034 * i as f32).fract();
+    let (low, high) = [(96.0, 206.0), (74.0, 176.0), (140.0, 226.0)][i % 3];
+    let part = |shift: f32| {
+        let t = ((hue + shift).fract() * 6.0 - 3.0).abs() - 1.0;
+        (low + (high - low) * t.clamp(0.0, 1.0)) as u8
+    };
+    srgb(part(0.0), part(2.0 / 3.0), part(1.0 / 3.0))
+}
+
 /// What is read first.
 pub fn dark() -> Rgb {
     srgb(28, 30, 36)

@@ -25,7 +25,8 @@ pub fn write(path: &str, vertices: &[[f64; 3]], faces: &[[u32; 3]]) -> Done {
 type Vertices<'a> = &'a [[f64; 3]];
 type Faces<'a> = &'a [[u32; 3]];
 
-fn stl(out: &mut dyn Write, vertices: Vertices, faces: Faces) -> std::io::Result<()> {
+/// Binary STL.
+pub fn stl(out: &mut dyn Write, vertices: Vertices, faces: Faces) -> std::io::Result<()> {
     let mut header = [b' '; 80];
     let title = b"binary STL by morula";
     header[..title.len()].copy_from_slice(title);
