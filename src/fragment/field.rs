@@ -8,28 +8,41 @@ use crate::math::Vec3;
 use crate::run::Run;
 use crate::solid::Grid;
 use crate::solid::nearest::Surface;
+use wide::{i16x8, i32x4};
 
 /// Cells that a thread takes at once.
 const CHUNK: usize = 2048;
 /// Outside cells farther than this from the surface, in cells, have no way.
 const NEAR: f32 = 2.0;
-/// Steps of a direction's components.
-const STEPS: f32 = 127.0;
+/// The length of a direction.
+const ONE: f32 = 16384.0;
+/// The greatest depth, in units of a field.
+const DEEPEST: f64 = 32766.0;
 
 /// Bytes of a cell.
 pub(super) const BYTES: u64 = size_of::<Cell>() as u64;
 
-/// Depth at a cell's centre, less than 0 outside, and the direction in which it grows.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Cell {
-    depth: f32,
-    way: [i8; 4],
+/// Depth at a cell's centre, less than 0 outside, in units of the field, and the direction in
+/// which it grows.
+pub(super) type Cell = [i16; 4];
+
+/// The depth at the cells of a grid, in whole numbers, so that the planes of eight cells are
+/// compared by a few instructions.
+#[derive(Debug)]
+pub(super) struct Field {
+    cells: Vec<Cell>,
+    unit: f64,
 }
 
-impl Cell {
-    fn new(depth: f64, way: Vec3) -> Cell {
-        let [x, y, z] = [way.x, way.y, way.z].map(|w| (w as f32 * STEPS).round() as i8);
-        Cell { depth: depth as f32, way: [x, y, z, 0] }
+impl Field {
+    /// Bytes that it holds.
+    pub(super) fn bytes(&self) -> u64 {
+        BYTES * self.cells.len() as u64
+    }
+
+    fn cell(&self, depth: f64, way: Vec3) -> Cell {
+        let [x, y, z] = [way.x, way.y, way.z].map(|w| (w as f32 * ONE).round() as i16);
+        [(depth / self.unit).clamp(-DEEPEST, DEEPEST).round() as i16, x, y, z]
     }
 }
 
@@ -39,49 +52,53 @@ pub(super) fn of_solid(
     distance: &[f32],
     surface: &Surface,
     run: &Run,
-) -> Result<Vec<Cell>> {
+) -> Result<Field> {
     let near = NEAR * grid.spacing.max() as f32;
+    let deepest = distance.iter().fold(near, |most, d| most.max(-d));
+    let mut field = Field { cells: Vec::new(), unit: f64::from(deepest) * 1.01 / DEEPEST };
     let mut out = filled("the depth of cells", distance.len(), Cell::default())?;
     run.pool().chunks_mut(&mut out, CHUNK, |chunk, out| {
         for (k, to) in out.iter_mut().enumerate() {
             let at = chunk * CHUNK + k;
             let Some(&value) = distance.get(at) else { continue };
-            *to = Cell { depth: -value, way: [0; 4] };
+            *to = field.cell(f64::from(-value), Vec3::zeros());
             if value < near {
                 let p = center(grid, at);
                 let reach = f64::from(value.abs()) * 1.01 + f64::from(near);
                 if let Some(found) = surface.nearest_within(&p, reach) {
                     let sign = if value < 0.0 { 1.0 } else { -1.0 };
                     let way = (p - found.point) * (sign / found.distance.max(1e-300));
-                    *to = Cell::new(sign * found.distance, way);
+                    *to = field.cell(sign * found.distance, way);
                 }
             }
         }
     });
-    Ok(out)
+    field.cells = out;
+    Ok(field)
 }
 
 /// The same in solid and union together.
-pub(super) fn narrowed(grid: &Grid, solid: &[Cell], union: &Union, run: &Run) -> Result<Vec<Cell>> {
-    let near = NEAR * grid.spacing.max() as f32;
-    let mut out = filled("the depth of cells", solid.len(), Cell::default())?;
+pub(super) fn narrowed(grid: &Grid, solid: &Field, union: &Union, run: &Run) -> Result<Field> {
+    let near = f64::from(NEAR) * grid.spacing.max();
+    let mut out = filled("the depth of cells", solid.cells.len(), Cell::default())?;
     run.pool().chunks_mut(&mut out, CHUNK, |chunk, out| {
         for (k, to) in out.iter_mut().enumerate() {
             let at = chunk * CHUNK + k;
-            let Some(cell) = solid.get(at) else { continue };
+            let Some(cell) = solid.cells.get(at) else { continue };
             *to = *cell;
-            if cell.depth > -near {
+            let own = f64::from(cell[0]) * solid.unit;
+            if own > -near {
                 let p = center(grid, at);
                 let (depth, point) = union.nearest(&p);
-                if depth < f64::from(cell.depth) {
+                if depth < own {
                     let way =
                         (p - point) * (1.0 / if depth.abs() > 1e-300 { depth } else { 1e-300 });
-                    *to = Cell::new(depth, way);
+                    *to = solid.cell(depth, way);
                 }
             }
         }
     });
-    Ok(out)
+    Ok(Field { cells: out, unit: solid.unit })
 }
 
 fn center(grid: &Grid, at: usize) -> Vec3 {
@@ -90,7 +107,7 @@ fn center(grid: &Grid, at: usize) -> Vec3 {
 }
 
 /// The depth between the cells, about a middle.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(super) struct Lookup<'a> {
     cells: &'a [Cell],
     row: usize,
@@ -98,63 +115,102 @@ pub(super) struct Lookup<'a> {
     /// The first cell centre from the middle, cells to a length, and just below the last centre.
     origin: [f32; 3],
     inverse: [f32; 3],
-    /// Edges of a cell, over the steps of a direction.
-    edges: [f32; 3],
     last: [f32; 3],
+    /// Edges of a cell in units of depth, and those along y and z for both cells of a pair.
+    edges: [f32; 3],
+    next: [i16x8; 2],
+    /// Of a sum over the products of two cells.
+    unit: f32,
+    /// Of a depth, more than half a cell's diagonal.
+    far: i16,
 }
 
 impl<'a> Lookup<'a> {
-    pub(super) fn new(grid: &Grid, cells: &'a [Cell], middle: &Vec3) -> Lookup<'a> {
+    pub(super) fn new(grid: &Grid, field: &'a Field, middle: &Vec3) -> Lookup<'a> {
         let first = grid.center(0, 0, 0) - middle;
+        let edges = [0, 1, 2].map(|a| (grid.spacing[a] / field.unit) as f32);
+        let [_, y, z] = edges.map(|e| e.round() as i16);
+        let diagonal = 0.5 * grid.spacing.norm() / field.unit + 2.0;
         Lookup {
-            cells,
+            cells: &field.cells,
             row: grid.dims[0],
             layer: grid.dims[0] * grid.dims[1],
             origin: [0, 1, 2].map(|a| first[a] as f32),
             inverse: [0, 1, 2].map(|a| (1.0 / grid.spacing[a]) as f32),
-            edges: [0, 1, 2].map(|a| grid.spacing[a] as f32 / STEPS),
             last: grid.dims.map(|n| (n.saturating_sub(1) as f32).next_down().max(0.0)),
+            edges,
+            next: [[0, 0, y, 0, 0, 0, y, 0], [0, 0, 0, z, 0, 0, 0, z]].map(i16x8::new),
+            unit: field.unit as f32 / ONE,
+            far: (diagonal * 1.01).min(DEEPEST) as i16,
         }
+    }
+
+    /// The depth at the cell's centre that is nearest.
+    #[inline]
+    fn nearest(&self, p: &[f32; 3]) -> i16 {
+        let strides = [1, self.row, self.layer];
+        let at = [0, 1, 2].map(|a| {
+            let u = ((p[a] - self.origin[a]) * self.inverse[a]).max(0.0).min(self.last[a]);
+            (u + 0.5) as u32 as usize * strides[a]
+        });
+        self.cells.get(at[0] + at[1] + at[2]).map_or(0, |c| c[0])
     }
 
     /// Whether the nearest cell's centre is inside.
     pub(super) fn inside(&self, p: &Vec3) -> bool {
-        let strides = [1, self.row, self.layer];
-        let at = (0..3).map(|a| {
-            let u = (p[a] as f32 - self.origin[a]) * self.inverse[a];
-            (u.max(0.0).min(self.last[a]) + 0.5) as usize * strides[a]
-        });
-        self.cells.get(at.sum::<usize>()).is_some_and(|c| c.depth > 0.0)
+        self.nearest(&[p.x as f32, p.y as f32, p.z as f32]) > 0
+    }
+
+    /// Whether the depth at a place is more than a length: at a glance where it is so all about the
+    /// nearest cell's centre.
+    #[inline]
+    pub(super) fn deeper(&self, p: &[f32; 3], than: f32) -> bool {
+        let least = than / (self.unit * ONE);
+        let about = f32::from(self.nearest(p)) - least;
+        about > f32::from(self.far) || (about > -f32::from(self.far) && self.at(p).0 > than)
     }
 
     /// The depth at a place, clamped to the grid, and the way in which it grows.
     #[inline]
     pub(super) fn at(&self, p: &[f32; 3]) -> (f32, [f32; 3]) {
         let strides = [1, self.row, self.layer];
-        let (mut at, mut t) = (0, [[0.0f32; 2]; 3]);
+        let (mut at, mut t) = (0, [0i16; 3]);
         for a in 0..3 {
             let u = ((p[a] - self.origin[a]) * self.inverse[a]).max(0.0).min(self.last[a]);
-            let whole = u as usize;
-            at += whole * strides[a];
-            let from = u - whole as f32;
-            t[a] = [from * self.edges[a], (from - 1.0) * self.edges[a]];
+            let whole = u as i32;
+            at += whole as usize * strides[a];
+            t[a] = ((u - whole as f32) * self.edges[a] + 0.5) as i32 as i16;
         }
         let Some(cells) = self.cells.get(at..at + self.layer + self.row + 2) else {
             return (0.0, [0.0; 3]);
         };
-        let (mut least, mut way) = (f32::MAX, [0; 4]);
-        for (dz, cells) in [(0, &cells[..self.row + 2]), (1, &cells[self.layer..])] {
-            for (dy, cells) in [(0, &cells[..2]), (1, &cells[self.row..self.row + 2])] {
-                for (dx, c) in cells.iter().enumerate() {
-                    let [x, y, z, _] = c.way.map(f32::from);
-                    let depth = c.depth + x * t[0][dx & 1] + y * t[1][dy] + z * t[2][dz];
-                    if depth < least {
-                        (least, way) = (depth, c.way);
-                    }
-                }
-            }
-        }
-        let [x, y, z, _] = way.map(|w| f32::from(w) / STEPS);
-        (least, [x, y, z])
+        let [x, y, z] = t;
+        let before = x.wrapping_sub((self.edges[0] + 0.5) as i32 as i16);
+        let here = i16x8::new([ONE as i16, x, y, z, ONE as i16, before, y, z]);
+        let up = here - self.next[1];
+        let rows = [
+            (&cells[..2], here),
+            (&cells[self.row..self.row + 2], here - self.next[0]),
+            (&cells[self.layer..self.layer + 2], up),
+            (&cells[self.layer + self.row..], up - self.next[0]),
+        ];
+        let sums = rows.map(|(pair, to)| {
+            let mut both = [0; 8];
+            both.copy_from_slice(pair.as_flattened());
+            i16x8::new(both).dot(to).to_array()
+        });
+        // The last bits are nothing, and hold the number of the cell.
+        let [a, b, c, d] = sums;
+        let low = i32x4::new([a[0], a[2], b[0], b[2]]) + i32x4::new([a[1], a[3], b[1], b[3]]);
+        let high = i32x4::new([c[0], c[2], d[0], d[2]]) + i32x4::new([c[1], c[3], d[1], d[3]]);
+        let clear = i32x4::splat(!7);
+        let low = (low & clear) | i32x4::new([0, 1, 2, 3]);
+        let high = (high & clear) | i32x4::new([4, 5, 6, 7]);
+        let [p, q, r, s] = low.min(high).to_array();
+        let least = p.min(q).min(r.min(s));
+        let which = (least & 7) as usize;
+        let way = rows[which >> 1].0[which & 1];
+        let [_, x, y, z] = way.map(|w| f32::from(w) * (1.0 / ONE));
+        (least as f32 * self.unit, [x, y, z])
     }
 }

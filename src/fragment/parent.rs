@@ -1,6 +1,6 @@
 //! What is made once of a particle that may break, and read by every break.
 
-use super::field::{self, Cell};
+use super::field::{self, Field};
 use super::room::{Ball, Parts, Room};
 use super::spread::{Random, spread};
 use super::union::Union;
@@ -24,7 +24,7 @@ pub struct Parent {
     spheres: Vec<Sphere>,
     /// Balls that no larger one within the surface holds, nearly.
     medial: Vec<Sphere>,
-    field: Vec<Cell>,
+    field: Field,
     narrow: Option<Narrow>,
     step: Option<f64>,
     bytes: u64,
@@ -33,13 +33,13 @@ pub struct Parent {
 /// What the surface and the union of the spheres have in common.
 pub(super) struct Narrow {
     pub union: Union,
-    pub field: Vec<Cell>,
+    pub field: Field,
     pub medial: Vec<Sphere>,
 }
 
 /// What the spheres of a fragment stay in.
 pub(super) struct Within<'a> {
-    pub field: &'a [Cell],
+    pub field: &'a Field,
     pub union: Option<&'a Union>,
     pub medial: &'a [Sphere],
 }
@@ -79,11 +79,9 @@ impl Parent {
             own.extend(kept.filter(|s| s.radius > 0.0));
             narrow = Some(Narrow { union, field, medial: own });
         }
-        let sizes = |n: &Narrow| {
-            n.union.bytes() + field::BYTES * n.field.len() as u64 + (32 * n.medial.len()) as u64
-        };
+        let sizes = |n: &Narrow| n.union.bytes() + n.field.bytes() + (32 * n.medial.len()) as u64;
         let bytes = (32 * (spheres.len() + medial.len())) as u64
-            + field::BYTES * field.len() as u64
+            + field.bytes()
             + narrow.as_ref().map_or(0, sizes);
         let step = if spheres.is_empty() {
             None
@@ -133,7 +131,7 @@ pub(super) fn step_of(spheres: &[Sphere], body: &Body) -> Option<f64> {
 /// The room of the whole solid.
 fn whole<'a>(
     solid: &'a Solid,
-    field: &'a [Cell],
+    field: &'a Field,
     surface: &'a Surface,
     union: Option<&'a Union>,
 ) -> Result<Room<'a>> {
@@ -147,7 +145,7 @@ fn whole<'a>(
 /// Balls grown from points all over the inside, with their exact depths.
 fn medial(
     solid: &Solid,
-    field: &[Cell],
+    field: &Field,
     surface: &Surface,
     union: Option<&Union>,
     run: &Run,

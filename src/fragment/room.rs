@@ -3,12 +3,13 @@
 //! that no field is made for a fragment; what is nearly so, fast and in single precision, is read
 //! from the parent's, and every sphere handed out is measured exactly.
 
-use super::field::{Cell, Lookup};
+use super::field::{Field, Lookup};
 use super::union::Union;
 use crate::error::{Result, collected};
 use crate::math::{Sphere, Vec3};
 use crate::solid::Grid;
 use crate::solid::nearest::Surface;
+use wide::f32x8;
 
 /// Of a cell: how much less than the way to what is nearest a grown radius may be.
 const TOLERANCE: f32 = 0.2;
@@ -50,7 +51,7 @@ pub(super) struct Parts<'a> {
     pub grid: &'a Grid,
     /// The depth in what spheres must stay in: the solid, or what it has in common with the
     /// union.
-    pub field: &'a [Cell],
+    pub field: &'a Field,
     pub surface: &'a Surface,
     pub union: Option<&'a Union>,
     /// Half-spaces of the fragment and further ones.
@@ -67,6 +68,8 @@ pub(super) struct Room<'a> {
     pub middle: Vec3,
     lookup: Lookup<'a>,
     walls: Vec<[f32; 4]>,
+    /// The same, eight by eight.
+    planes: Vec<[f32x8; 4]>,
     /// Too small for the grid: distances to the surface itself.
     exact: bool,
     slack: f32,
@@ -83,12 +86,20 @@ impl<'a> Room<'a> {
             let n = w.normal;
             [n.x as f32, n.y as f32, n.z as f32, (w.offset - n.dot(&middle)) as f32]
         });
+        let walls = collected("half-spaces", about)?;
+        let eight = walls.chunks(8).map(|some| {
+            // Those that are missing are far away.
+            let of = |l: usize, a: usize| some.get(l).map_or([0.0, 0.0, 0.0, FAR][a], |w| w[a]);
+            std::array::from_fn(|a| f32x8::new(std::array::from_fn(|l| of(l, a))))
+        });
+        let planes = collected("half-spaces", eight)?;
         let size = volume.max(0.0).cbrt() as f32;
         let exact = edges.max() < FEW_CELLS * cell;
         Ok(Room {
             lookup: Lookup::new(parts.grid, parts.field, &middle),
             slack: if exact { 1e-3 * size } else { TOLERANCE * cell as f32 },
-            walls: collected("half-spaces", about)?,
+            walls,
+            planes,
             exact,
             size,
             middle,
@@ -103,13 +114,7 @@ impl<'a> Room<'a> {
     /// The depth at a place, nearly, and the way in which it falls fastest.
     #[inline]
     pub(super) fn depth(&self, p: &[f32; 3]) -> (f32, [f32; 3]) {
-        let (mut depth, mut out) = (f32::MAX, [0.0; 3]);
-        for &[x, y, z, offset] in &self.walls {
-            let below = offset - (x * p[0] + y * p[1] + z * p[2]);
-            if below < depth {
-                (depth, out) = (below, [x, y, z]);
-            }
-        }
+        let (mut depth, mut out) = self.below(p);
         if depth <= 0.0 {
             return (depth - self.parts.less as f32, out);
         }
@@ -118,6 +123,33 @@ impl<'a> Room<'a> {
             (depth, out) = (own, way.map(|x| -x));
         }
         (depth - self.parts.less as f32, out)
+    }
+
+    /// The least depth below the half-spaces, and the normal of that one.
+    #[inline]
+    fn below(&self, p: &[f32; 3]) -> (f32, [f32; 3]) {
+        let mut found = (FAR, [0.0; 3]);
+        for [x, y, z, offset] in &self.planes {
+            let below = *offset - (*x * p[0] + *y * p[1] + *z * p[2]);
+            let [a, b, c, d, e, f, g, h] = below.to_array();
+            let least = (a.min(b).min(c.min(d))).min(e.min(f).min(g.min(h)));
+            if least < found.0 {
+                let lane =
+                    below.simd_eq(f32x8::splat(least)).to_bitmask().trailing_zeros() as usize;
+                found = (least, [x, y, z].map(|n| n.as_array()[lane & 7]));
+            }
+        }
+        found
+    }
+
+    /// Whether the depth at a place within the half-spaces is above 0.
+    #[inline]
+    pub(super) fn open(&self, p: &[f32; 3]) -> bool {
+        if self.exact {
+            self.depth(p).0 > 0.0
+        } else {
+            self.lookup.deeper(p, self.parts.less as f32)
+        }
     }
 
     /// The depth in surface and union themselves, as far as it is less than `reach`, and the way
@@ -278,6 +310,8 @@ impl<'a> Room<'a> {
     }
 }
 
+/// Below no half-space.
+const FAR: f32 = 1e30;
 /// From a place to the nearest cell centre it is at most this, in edges, and a little for rounding.
 const HALF_DIAGONAL: f64 = 0.88;
 /// A fragment smaller than so many cells of its parent's grid is not told by them.

@@ -83,7 +83,7 @@ pub(super) fn spread(
                 while t < to && out.len() < 2 * wanted {
                     let p = [0, 1, 2].map(|k| base[k] + t * AXES[0][k]);
                     t += step;
-                    if room.depth(&p).0 > 0.0 && holds(&room.global(&p)) {
+                    if room.open(&p) && holds(&room.global(&p)) {
                         push("points", &mut out, p)?;
                     }
                 }
