@@ -3,7 +3,8 @@
 ! Compile this file with your own compiler (CMake: link morula::fortran). It has
 ! two layers. The first is one bind(c) interface for each function of morula.h,
 ! with the same names, and its structs as bind(c) types. The second are the types
-! morula_shape_t, morula_solid_t, morula_clump_t and morula_body_t, which hold a handle:
+! morula_shape_t, morula_solid_t, morula_clump_t, morula_body_t, morula_parent_t and
+! morula_fragments_t, which hold a handle:
 !
 !   type(morula_shape_t) :: shape
 !   type(morula_clump_t) :: clump
@@ -70,6 +71,10 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_CONTACT_OPTIONS = 12_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_TIMESTEP = 13_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_EXPORT_OPTIONS = 14_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_BREAK_OPTIONS = 15_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_HELD = 16_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_FRAGMENT = 17_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_BREAK_TOTALS = 18_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_REFUSE = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_LARGEST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_ALL = 2_c_int32_t
@@ -116,6 +121,12 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_CANDIDATES_ANALYTIC = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_FRAME_INPUT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_FRAME_BODY = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_FRAME_WORLD = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CUT_PLANES = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CUT_WITHIN = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CUT_POINTS = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CUT_SEEDED = 3_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_CUT_IMPACT = 4_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_WANT_NOTHING = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_WANT_OVERLAP = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_WANT_SURFACE = 2_c_int32_t
@@ -137,6 +148,7 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_MASSES_EXACT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_MASSES_RELAXED = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_MASSES_MASS_ONLY = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_MASSES_NONE = 3_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EXPORT_MERCURY = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EXPORT_LAMMPS = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EXPORT_LAMMPS_RIGID = 2_c_int32_t
@@ -381,6 +393,80 @@ module morula
     integer(c_int32_t) :: reserved = 0_c_int32_t
   end type morula_export_options
 
+  type, bind(c), public :: morula_break_options
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    type(c_ptr) :: half_spaces = c_null_ptr
+    integer(c_size_t) :: half_space_count = 0_c_size_t
+    type(c_ptr) :: points = c_null_ptr
+    type(c_ptr) :: weights = c_null_ptr
+    integer(c_size_t) :: point_count = 0_c_size_t
+    type(c_ptr) :: walls = c_null_ptr
+    integer(c_size_t) :: wall_count = 0_c_size_t
+    integer(c_int64_t) :: cells = 0_c_int64_t
+    real(c_double) :: point(3) = 0.0_c_double
+    real(c_double) :: direction(3) = 0.0_c_double
+    integer(c_int64_t) :: seed = 0_c_int64_t
+    real(c_double) :: least_volume = 0.0_c_double
+    integer(c_int64_t) :: spheres = 0_c_int64_t
+    real(c_double) :: min_radius = 0.0_c_double
+    real(c_double) :: gap = 0.0_c_double
+    real(c_double) :: m_min = 0.0_c_double
+    real(c_double) :: deadline_seconds = 0.0_c_double
+    integer(c_int32_t) :: kind = 0_c_int32_t
+    integer(c_int32_t) :: within_union = 0_c_int32_t
+    integer(c_int32_t) :: precision = 0_c_int32_t
+    integer(c_int32_t) :: quality = 0_c_int32_t
+    integer(c_int32_t) :: masses = 0_c_int32_t
+    integer(c_int32_t) :: objective = 0_c_int32_t
+    integer(c_int32_t) :: infeasible = 0_c_int32_t
+    integer(c_int32_t) :: threads = 0_c_int32_t
+    type(c_funptr) :: progress = c_null_funptr
+    type(c_ptr) :: user = c_null_ptr
+  end type morula_break_options
+
+  type, bind(c), public :: morula_held
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: mass = 0.0_c_double
+    real(c_double) :: centre(3) = 0.0_c_double
+    real(c_double) :: inertia(6) = 0.0_c_double
+    real(c_double) :: scale = 0.0_c_double
+    real(c_double) :: position(3) = 0.0_c_double
+    real(c_double) :: quaternion(4) = 0.0_c_double
+    real(c_double) :: velocity(3) = 0.0_c_double
+    real(c_double) :: angular_velocity(3) = 0.0_c_double
+  end type morula_held
+
+  type, bind(c), public :: morula_fragment
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: mass = 0.0_c_double
+    real(c_double) :: centre(3) = 0.0_c_double
+    real(c_double) :: inertia(6) = 0.0_c_double
+    real(c_double) :: principal(3) = 0.0_c_double
+    real(c_double) :: rotation(9) = 0.0_c_double
+    real(c_double) :: position(3) = 0.0_c_double
+    real(c_double) :: quaternion(4) = 0.0_c_double
+    real(c_double) :: velocity(3) = 0.0_c_double
+    real(c_double) :: angular_velocity(3) = 0.0_c_double
+    real(c_double) :: volume = 0.0_c_double
+    real(c_double) :: coverage = 0.0_c_double
+    real(c_double) :: volume_share = 0.0_c_double
+    real(c_double) :: step_factor = 0.0_c_double
+    real(c_double) :: inertia_residual = 0.0_c_double
+    integer(c_int64_t) :: sphere_count = 0_c_int64_t
+    integer(c_int64_t) :: map_count = 0_c_int64_t
+    integer(c_int64_t) :: half_space_count = 0_c_int64_t
+    integer(c_int64_t) :: cell = 0_c_int64_t
+    integer(c_int32_t) :: stopped = 0_c_int32_t
+    integer(c_int32_t) :: masses = 0_c_int32_t
+  end type morula_fragment
+
+  type, bind(c), public :: morula_break_totals
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: energy = 0.0_c_double
+    real(c_double) :: inertia_error = 0.0_c_double
+    real(c_double) :: shift(3) = 0.0_c_double
+  end type morula_break_totals
+
   ! ---- functions of morula.h ----
 
   public :: morula_version, morula_version_string, morula_status_name, morula_last_error_message
@@ -415,6 +501,14 @@ module morula
   public :: morula_stopped_name, morula_clump_copy_note, morula_clump_moments
   public :: morula_clump_overlap, morula_clump_surface, morula_clump_copy_exposed_areas
   public :: morula_clump_copy_plane_contacts, morula_clump_counters
+  public :: morula_parent_from_solid, morula_parent_from_clump, morula_parent_bytes
+  public :: morula_parent_free, morula_held_init, morula_parent_held, morula_fragments_held
+  public :: morula_break_options_init, morula_parent_break, morula_parents_break
+  public :: morula_reclump_shape, morula_fragments_free, morula_fragments_count
+  public :: morula_fragments_dust_count, morula_fragments_get, morula_fragments_dust
+  public :: morula_fragments_totals, morula_fragments_copy_spheres, morula_fragments_copy_masses
+  public :: morula_fragments_copy_map, morula_fragments_copy_half_spaces, morula_fragments_shape
+  public :: morula_fragments_grow, morula_fragments_note_count, morula_fragments_copy_note
 
   interface
     function morula_version() bind(c) result(r)
@@ -1097,6 +1191,214 @@ module morula
       import
       type(c_ptr), value :: files
     end subroutine morula_files_free
+    function morula_parent_from_solid(solid, xyzr, count, threads, parent) bind(c) result(r)
+      import
+      type(c_ptr), value :: solid
+      real(c_double), intent(in) :: xyzr(4, *)
+      integer(c_size_t), value :: count
+      integer(c_int32_t), value :: threads
+      type(c_ptr), intent(inout) :: parent
+      integer(c_int32_t) :: r
+    end function morula_parent_from_solid
+    function morula_parent_from_clump(solid, clump, threads, parent) bind(c) result(r)
+      import
+      type(c_ptr), value :: solid
+      type(c_ptr), value :: clump
+      integer(c_int32_t), value :: threads
+      type(c_ptr), intent(inout) :: parent
+      integer(c_int32_t) :: r
+    end function morula_parent_from_clump
+    function morula_parent_bytes(parent, bytes) bind(c) result(r)
+      import
+      type(c_ptr), value :: parent
+      integer(c_int64_t), intent(inout) :: bytes
+      integer(c_int32_t) :: r
+    end function morula_parent_bytes
+    subroutine morula_parent_free(parent) bind(c)
+      import
+      type(c_ptr), value :: parent
+    end subroutine morula_parent_free
+    function morula_held_init(held, size) bind(c) result(r)
+      import
+      type(morula_held), intent(out) :: held
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: r
+    end function morula_held_init
+    function morula_parent_held(parent, density, scale, position, quaternion, velocity, &
+        angular_velocity, held) bind(c) result(r)
+      import
+      type(c_ptr), value :: parent
+      real(c_double), value :: density
+      real(c_double), value :: scale
+      real(c_double), intent(in), optional :: position(*)
+      real(c_double), intent(in), optional :: quaternion(*)
+      real(c_double), intent(in), optional :: velocity(*)
+      real(c_double), intent(in), optional :: angular_velocity(*)
+      type(morula_held), intent(inout) :: held
+      integer(c_int32_t) :: r
+    end function morula_parent_held
+    function morula_fragments_held(fragments, index, position, quaternion, velocity, &
+        angular_velocity, held) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      real(c_double), intent(in), optional :: position(*)
+      real(c_double), intent(in), optional :: quaternion(*)
+      real(c_double), intent(in), optional :: velocity(*)
+      real(c_double), intent(in), optional :: angular_velocity(*)
+      type(morula_held), intent(inout) :: held
+      integer(c_int32_t) :: r
+    end function morula_fragments_held
+    function morula_break_options_init(options, size) bind(c) result(r)
+      import
+      type(morula_break_options), intent(out) :: options
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: r
+    end function morula_break_options_init
+    function morula_parent_break(parent, from, index, held, options, fragments) bind(c) result(r)
+      import
+      type(c_ptr), value :: parent
+      type(c_ptr), value :: from
+      integer(c_size_t), value :: index
+      type(morula_held), intent(in) :: held
+      type(morula_break_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: fragments
+      integer(c_int32_t) :: r
+    end function morula_parent_break
+    function morula_parents_break(parents, from, indices, held, options, count, fragments, &
+        statuses) bind(c) result(r)
+      import
+      type(c_ptr), intent(in) :: parents(*)
+      type(c_ptr), intent(in), optional :: from(*)
+      integer(c_size_t), intent(in), optional :: indices(*)
+      type(morula_held), intent(in) :: held(*)
+      type(morula_break_options), intent(in), optional :: options(*)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: fragments(*)
+      integer(c_int32_t), intent(inout), optional :: statuses(*)
+      integer(c_int32_t) :: r
+    end function morula_parents_break
+    function morula_reclump_shape(solid, xyzr, count, held, options, fragments) bind(c) result(r)
+      import
+      type(c_ptr), value :: solid
+      real(c_double), intent(in) :: xyzr(4, *)
+      integer(c_size_t), value :: count
+      type(morula_held), intent(in) :: held
+      type(morula_break_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: fragments
+      integer(c_int32_t) :: r
+    end function morula_reclump_shape
+    subroutine morula_fragments_free(fragments) bind(c)
+      import
+      type(c_ptr), value :: fragments
+    end subroutine morula_fragments_free
+    function morula_fragments_count(fragments, count) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_fragments_count
+    function morula_fragments_dust_count(fragments, count) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_fragments_dust_count
+    function morula_fragments_get(fragments, index, fragment) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      type(morula_fragment), intent(inout) :: fragment
+      integer(c_int32_t) :: r
+    end function morula_fragments_get
+    function morula_fragments_dust(fragments, index, dust) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      type(morula_fragment), intent(inout) :: dust
+      integer(c_int32_t) :: r
+    end function morula_fragments_dust
+    function morula_fragments_totals(fragments, totals) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      type(morula_break_totals), intent(inout) :: totals
+      integer(c_int32_t) :: r
+    end function morula_fragments_totals
+    function morula_fragments_copy_spheres(fragments, index, frame, capacity, &
+        xyzr) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      integer(c_int32_t), value :: frame
+      integer(c_size_t), value :: capacity
+      real(c_double), intent(inout) :: xyzr(4, *)
+      integer(c_int32_t) :: r
+    end function morula_fragments_copy_spheres
+    function morula_fragments_copy_masses(fragments, index, capacity, masses) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      integer(c_size_t), value :: capacity
+      real(c_double), intent(inout) :: masses(*)
+      integer(c_int32_t) :: r
+    end function morula_fragments_copy_masses
+    function morula_fragments_copy_map(fragments, index, starts, capacity, parents, &
+        shares) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      integer(c_int32_t), intent(inout) :: starts(*)
+      integer(c_size_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: parents(*)
+      real(c_double), intent(inout) :: shares(*)
+      integer(c_int32_t) :: r
+    end function morula_fragments_copy_map
+    function morula_fragments_copy_half_spaces(fragments, index, capacity, &
+        half_spaces) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      integer(c_size_t), value :: capacity
+      real(c_double), intent(inout) :: half_spaces(4, *)
+      integer(c_int32_t) :: r
+    end function morula_fragments_copy_half_spaces
+    function morula_fragments_shape(fragments, index, shape) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      type(c_ptr), intent(inout) :: shape
+      integer(c_int32_t) :: r
+    end function morula_fragments_shape
+    function morula_fragments_grow(fragments, index, part, others, other_count, gap, frame, &
+        capacity, xyzr) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      real(c_double), value :: part
+      real(c_double), intent(in) :: others(4, *)
+      integer(c_size_t), value :: other_count
+      real(c_double), value :: gap
+      integer(c_int32_t), value :: frame
+      integer(c_size_t), value :: capacity
+      real(c_double), intent(inout) :: xyzr(4, *)
+      integer(c_int32_t) :: r
+    end function morula_fragments_grow
+    function morula_fragments_note_count(fragments, count) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_fragments_note_count
+    function morula_fragments_copy_note(fragments, index, capacity, text, &
+        length) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      integer(c_size_t), value :: capacity
+      type(c_ptr), value :: text
+      integer(c_size_t), intent(inout), optional :: length
+      integer(c_int32_t) :: r
+    end function morula_fragments_copy_note
   end interface
 
   interface
@@ -1235,9 +1537,68 @@ module morula
     final :: body_final
   end type morula_body_t
 
+  !> A particle that may break: its solid and the spheres of its clump.
+  type, public :: morula_parent_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure, private :: parent_from_clump, parent_from_spheres
+    !> Of a solid and its clump, or spheres xyzr(4, n) in its frame, of which there may be none.
+    generic :: create => parent_from_clump, parent_from_spheres
+    !> The body of the whole in its place, quaternion (w, x, y, z) that of the body axes.
+    procedure :: held => parent_held
+    procedure :: bytes => parent_bytes
+    procedure :: destroy => parent_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => parent_handle
+    procedure, private :: parent_assign
+    generic :: assignment(=) => parent_assign
+    final :: parent_final
+  end type morula_parent_t
+
+  !> The fragments of one break, counted from 1, and its dust.
+  type, public :: morula_fragments_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure, private :: fragments_of_parent, fragments_of_fragment
+    !> Breaks a parent, or fragment `index` of an earlier break (another variable).
+    generic :: create => fragments_of_parent, fragments_of_fragment
+    !> New spheres for a shape that has changed, from the old ones xyzr(4, n): one fragment.
+    procedure :: reclump_shape => fragments_reclump
+    procedure :: count => fragments_count
+    procedure :: dust_count => fragments_dust_count
+    !> What a solver takes of a fragment, and its quality.
+    procedure :: get => fragments_get
+    procedure :: dust => fragments_dust
+    procedure :: totals => fragments_totals
+    !> A fragment as the solver holds it now, for it to break again.
+    procedure :: held => fragments_held
+    !> The spheres as xyzr(4, n): x, y, z, radius, in MORULA_FRAME_INPUT or the frame given.
+    procedure :: copy_spheres => fragments_copy_spheres
+    procedure :: copy_masses => fragments_copy_masses
+    !> Those of sphere i are the pairs starts(i) up to starts(i + 1) - 1; spheres count from 1.
+    procedure :: copy_map => fragments_copy_map
+    !> Normal and offset each, half_spaces(4, n).
+    procedure :: copy_half_spaces => fragments_copy_half_spaces
+    !> The surface of a fragment.
+    procedure :: shape => fragments_shape
+    !> The spheres, grown by a part from 0 to 1 as far as others(4, m) leave room.
+    procedure :: grow => fragments_grow
+    procedure :: note_count => fragments_note_count
+    procedure :: note => fragments_note
+    procedure :: destroy => fragments_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => fragments_handle
+    procedure, private :: fragments_assign
+    generic :: assignment(=) => fragments_assign
+    final :: fragments_final
+  end type morula_fragments_t
+
   !> Options with the defaults.
   interface morula_init
     procedure :: init_import, init_file, init_solid, init_clump, init_mass, init_contact, init_export
+    procedure :: init_break, init_held
   end interface morula_init
 
   !> The labels of an array labels(nx, ny, nz), of a file (its path), of the bytes of a file.
@@ -1252,7 +1613,7 @@ module morula
     procedure :: clumps_from_solid, clumps_from_shapes, clumps_from_labels
   end interface morula_make_clumps
 
-  public :: morula_make_clumps
+  public :: morula_make_clumps, morula_break_all
   public :: morula_init, morula_text, morula_message, morula_name_of_status
   public :: morula_name_of_primitive, morula_name_of_stop, morula_labels
 
@@ -1371,6 +1732,18 @@ contains
     integer(c_int32_t), intent(out), optional :: status
     call finish(morula_export_options_init(options, c_sizeof(options)), status)
   end subroutine init_export
+
+  subroutine init_break(options, status)
+    type(morula_break_options), intent(out) :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_break_options_init(options, c_sizeof(options)), status)
+  end subroutine init_break
+
+  subroutine init_held(held, status)
+    type(morula_held), intent(out) :: held
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_held_init(held, c_sizeof(held)), status)
+  end subroutine init_held
 
   !> The labels of labels(nx, ny, nz), ascending, without 0: ids(n), their cells(n), boxes(6, n)
   !> (first and last cell, counted from 1), and whether they touch the border.
@@ -2241,5 +2614,358 @@ contains
     type(morula_body_t), intent(inout) :: self
     call self%destroy()
   end subroutine body_final
+
+  ! ---- particles that may break ----
+
+  subroutine parent_from_clump(self, solid, clump, threads, status)
+    class(morula_parent_t), intent(inout) :: self
+    class(morula_solid_t), intent(in) :: solid
+    class(morula_clump_t), intent(in) :: clump
+    integer, intent(in), optional :: threads
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_parent_from_clump(solid%handle, clump%handle, threads_or_1(threads), &
+      self%handle), status)
+  end subroutine parent_from_clump
+
+  subroutine parent_from_spheres(self, solid, xyzr, threads, status)
+    class(morula_parent_t), intent(inout) :: self
+    class(morula_solid_t), intent(in) :: solid
+    real(c_double), intent(in), contiguous :: xyzr(:, :)
+    integer, intent(in), optional :: threads
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call self%destroy()
+    call finish(morula_parent_from_solid(solid%handle, xyzr, size(xyzr, 2, c_size_t), &
+      threads_or_1(threads), self%handle), status)
+  end subroutine parent_from_spheres
+
+  pure function threads_or_1(threads) result(n)
+    integer, intent(in), optional :: threads
+    integer(c_int32_t) :: n
+    n = 1_c_int32_t
+    if (present(threads)) n = int(threads, c_int32_t)
+  end function threads_or_1
+
+  subroutine parent_held(self, held, density, scale, position, quaternion, velocity, &
+      angular_velocity, status)
+    class(morula_parent_t), intent(in) :: self
+    type(morula_held), intent(out) :: held
+    real(c_double), intent(in) :: density
+    real(c_double), intent(in), optional :: scale, position(3), quaternion(4), velocity(3)
+    real(c_double), intent(in), optional :: angular_velocity(3)
+    integer(c_int32_t), intent(out), optional :: status
+    real(c_double) :: factor
+    factor = 1.0_c_double
+    if (present(scale)) factor = scale
+    held%struct_size = c_sizeof(held)
+    call finish(morula_parent_held(self%handle, density, factor, position, quaternion, velocity, &
+      angular_velocity, held), status)
+  end subroutine parent_held
+
+  subroutine parent_bytes(self, bytes, status)
+    class(morula_parent_t), intent(in) :: self
+    integer(c_int64_t), intent(out) :: bytes
+    integer(c_int32_t), intent(out), optional :: status
+    bytes = 0
+    call finish(morula_parent_bytes(self%handle, bytes), status)
+  end subroutine parent_bytes
+
+  !> All breaks of one time step: of parents(n), or of fragment indices(i) of from(i), as they are
+  !> held; options(n), if given, say how, and whose threads are options(1)'s. With statuses(n)
+  !> every break that succeeds is made; without, all of them or none.
+  subroutine morula_break_all(parents, held, fragments, options, from, indices, statuses, status)
+    class(morula_parent_t), intent(in) :: parents(:)
+    type(morula_held), intent(in), contiguous :: held(:)
+    class(morula_fragments_t), intent(inout) :: fragments(:)
+    type(morula_break_options), intent(in), contiguous, optional :: options(:)
+    class(morula_fragments_t), intent(in), optional :: from(:)
+    integer, intent(in), optional :: indices(:)
+    integer(c_int32_t), intent(out), contiguous, optional :: statuses(:)
+    integer(c_int32_t), intent(out), optional :: status
+    type(c_ptr) :: handles(size(parents)), origins(size(parents)), made(size(parents))
+    integer(c_size_t) :: numbers(size(parents))
+    integer(c_int32_t) :: code
+    integer :: i
+    if (size(held) /= size(parents) .or. size(fragments) /= size(parents)) then
+      error stop 'morula: a held body and fragments for each parent'
+    end if
+    origins = c_null_ptr
+    made = c_null_ptr
+    numbers = 0
+    do i = 1, size(parents)
+      handles(i) = parents(i)%handle
+      if (present(from) .and. present(indices)) then
+        origins(i) = from(i)%handle
+        numbers(i) = int(indices(i) - 1, c_size_t)
+      end if
+    end do
+    code = morula_parents_break(handles, origins, numbers, held, options, &
+      size(parents, kind=c_size_t), made, statuses)
+    do i = 1, size(parents)
+      call fragments(i)%destroy()
+      fragments(i)%handle = made(i)
+    end do
+    call finish(code, status)
+  end subroutine morula_break_all
+
+  subroutine parent_destroy(self)
+    class(morula_parent_t), intent(inout) :: self
+    call morula_parent_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine parent_destroy
+
+  function parent_handle(self) result(handle)
+    class(morula_parent_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function parent_handle
+
+  subroutine parent_assign(self, other)
+    class(morula_parent_t), intent(inout) :: self
+    class(morula_parent_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine parent_assign
+
+  impure elemental subroutine parent_final(self)
+    type(morula_parent_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine parent_final
+
+  ! ---- fragments ----
+
+  subroutine fragments_of_parent(self, parent, held, options, status)
+    class(morula_fragments_t), intent(inout) :: self
+    class(morula_parent_t), intent(in) :: parent
+    type(morula_held), intent(in) :: held
+    type(morula_break_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_parent_break(parent%handle, c_null_ptr, 0_c_size_t, held, options, &
+      self%handle), status)
+  end subroutine fragments_of_parent
+
+  subroutine fragments_of_fragment(self, from, index, held, options, status)
+    class(morula_fragments_t), intent(inout) :: self
+    class(morula_fragments_t), intent(in) :: from
+    integer, intent(in) :: index
+    type(morula_held), intent(in) :: held
+    type(morula_break_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    type(c_ptr) :: made
+    integer(c_int32_t) :: code
+    made = c_null_ptr
+    code = morula_parent_break(c_null_ptr, from%handle, int(index - 1, c_size_t), held, options, made)
+    call self%destroy()
+    self%handle = made
+    call finish(code, status)
+  end subroutine fragments_of_fragment
+
+  subroutine fragments_reclump(self, solid, xyzr, held, options, status)
+    class(morula_fragments_t), intent(inout) :: self
+    class(morula_solid_t), intent(in) :: solid
+    real(c_double), intent(in), contiguous :: xyzr(:, :)
+    type(morula_held), intent(in) :: held
+    type(morula_break_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call self%destroy()
+    call finish(morula_reclump_shape(solid%handle, xyzr, size(xyzr, 2, c_size_t), held, options, &
+      self%handle), status)
+  end subroutine fragments_reclump
+
+  subroutine fragments_count(self, count, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_fragments_count(self%handle, n), status)
+    count = int(n)
+  end subroutine fragments_count
+
+  subroutine fragments_dust_count(self, count, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_fragments_dust_count(self%handle, n), status)
+    count = int(n)
+  end subroutine fragments_dust_count
+
+  subroutine fragments_get(self, index, fragment, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    type(morula_fragment), intent(out) :: fragment
+    integer(c_int32_t), intent(out), optional :: status
+    fragment%struct_size = c_sizeof(fragment)
+    call finish(morula_fragments_get(self%handle, int(index - 1, c_size_t), fragment), status)
+  end subroutine fragments_get
+
+  subroutine fragments_dust(self, index, dust, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    type(morula_fragment), intent(out) :: dust
+    integer(c_int32_t), intent(out), optional :: status
+    dust%struct_size = c_sizeof(dust)
+    call finish(morula_fragments_dust(self%handle, int(index - 1, c_size_t), dust), status)
+  end subroutine fragments_dust
+
+  subroutine fragments_totals(self, totals, status)
+    class(morula_fragments_t), intent(in) :: self
+    type(morula_break_totals), intent(out) :: totals
+    integer(c_int32_t), intent(out), optional :: status
+    totals%struct_size = c_sizeof(totals)
+    call finish(morula_fragments_totals(self%handle, totals), status)
+  end subroutine fragments_totals
+
+  subroutine fragments_held(self, index, held, position, quaternion, velocity, &
+      angular_velocity, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    type(morula_held), intent(out) :: held
+    real(c_double), intent(in), optional :: position(3), quaternion(4), velocity(3)
+    real(c_double), intent(in), optional :: angular_velocity(3)
+    integer(c_int32_t), intent(out), optional :: status
+    held%struct_size = c_sizeof(held)
+    call finish(morula_fragments_held(self%handle, int(index - 1, c_size_t), position, &
+      quaternion, velocity, angular_velocity, held), status)
+  end subroutine fragments_held
+
+  subroutine fragments_copy_spheres(self, index, xyzr, frame, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    real(c_double), intent(inout), contiguous :: xyzr(:, :)
+    integer(c_int32_t), intent(in), optional :: frame
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call finish(morula_fragments_copy_spheres(self%handle, int(index - 1, c_size_t), &
+      frame_or_input(frame), size(xyzr, 2, c_size_t), xyzr), status)
+  end subroutine fragments_copy_spheres
+
+  subroutine fragments_copy_masses(self, index, masses, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    real(c_double), intent(inout), contiguous :: masses(:)
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_fragments_copy_masses(self%handle, int(index - 1, c_size_t), &
+      size(masses, kind=c_size_t), masses), status)
+  end subroutine fragments_copy_masses
+
+  subroutine fragments_copy_map(self, index, starts, parents, shares, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    integer(c_int32_t), allocatable, intent(out) :: starts(:), parents(:)
+    real(c_double), allocatable, intent(out) :: shares(:)
+    integer(c_int32_t), intent(out), optional :: status
+    type(morula_fragment) :: fragment
+    integer(c_size_t) :: at
+    integer(c_int32_t) :: code
+    at = int(index - 1, c_size_t)
+    fragment%struct_size = c_sizeof(fragment)
+    code = morula_fragments_get(self%handle, at, fragment)
+    allocate(starts(fragment%sphere_count + 1), parents(fragment%map_count))
+    allocate(shares(fragment%map_count))
+    if (code == MORULA_STATUS_OK) then
+      code = morula_fragments_copy_map(self%handle, at, starts, size(parents, kind=c_size_t), &
+        parents, shares)
+    end if
+    if (code == MORULA_STATUS_OK) then
+      starts = starts + 1
+      parents = parents + 1
+    end if
+    call finish(code, status)
+  end subroutine fragments_copy_map
+
+  subroutine fragments_copy_half_spaces(self, index, half_spaces, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    real(c_double), intent(inout), contiguous :: half_spaces(:, :)
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(half_spaces, 1) /= 4) error stop 'morula: half_spaces is an array (4, n)'
+    call finish(morula_fragments_copy_half_spaces(self%handle, int(index - 1, c_size_t), &
+      size(half_spaces, 2, c_size_t), half_spaces), status)
+  end subroutine fragments_copy_half_spaces
+
+  subroutine fragments_shape(self, index, shape, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    class(morula_shape_t), intent(inout) :: shape
+    integer(c_int32_t), intent(out), optional :: status
+    call shape%destroy()
+    call finish(morula_fragments_shape(self%handle, int(index - 1, c_size_t), shape%handle), status)
+  end subroutine fragments_shape
+
+  subroutine fragments_grow(self, index, part, others, xyzr, gap, frame, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    real(c_double), intent(in) :: part
+    real(c_double), intent(in), contiguous :: others(:, :)
+    real(c_double), intent(inout), contiguous :: xyzr(:, :)
+    real(c_double), intent(in), optional :: gap
+    integer(c_int32_t), intent(in), optional :: frame
+    integer(c_int32_t), intent(out), optional :: status
+    real(c_double) :: apart
+    if (size(xyzr, 1) /= 4 .or. size(others, 1) /= 4) error stop 'morula: spheres are arrays (4, n)'
+    apart = 0.0_c_double
+    if (present(gap)) apart = gap
+    call finish(morula_fragments_grow(self%handle, int(index - 1, c_size_t), part, others, &
+      size(others, 2, c_size_t), apart, frame_or_input(frame), size(xyzr, 2, c_size_t), xyzr), &
+      status)
+  end subroutine fragments_grow
+
+  subroutine fragments_note_count(self, count, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_fragments_note_count(self%handle, n), status)
+    count = int(n)
+  end subroutine fragments_note_count
+
+  subroutine fragments_note(self, index, text, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out) :: text
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: buffer(:)
+    integer(c_size_t) :: at, length
+    integer(c_int32_t) :: code
+    at = int(index - 1, c_size_t)
+    length = 0
+    code = morula_fragments_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, length)
+    allocate(buffer(length + 1))
+    buffer = c_null_char
+    if (code == MORULA_STATUS_OK) then
+      code = morula_fragments_copy_note(self%handle, at, length + 1, c_loc(buffer))
+    end if
+    text = morula_text(c_loc(buffer))
+    call finish(code, status)
+  end subroutine fragments_note
+
+  subroutine fragments_destroy(self)
+    class(morula_fragments_t), intent(inout) :: self
+    call morula_fragments_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine fragments_destroy
+
+  function fragments_handle(self) result(handle)
+    class(morula_fragments_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function fragments_handle
+
+  subroutine fragments_assign(self, other)
+    class(morula_fragments_t), intent(inout) :: self
+    class(morula_fragments_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine fragments_assign
+
+  impure elemental subroutine fragments_final(self)
+    type(morula_fragments_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine fragments_final
 
 end module morula

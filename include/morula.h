@@ -7,8 +7,9 @@
  * sentence with the value and index at fault. What a function gives back is
  * written only on success.
  *
- * Ownership. morula_shape, morula_solid and morula_clump are made by the library
- * and taken back by their _free function, which ignores NULL. Arrays and strings
+ * Ownership. Handles (morula_shape, morula_solid, morula_clump, morula_body,
+ * morula_files, morula_parent, morula_fragments) are made by the library and
+ * taken back by their _free function, which ignores NULL. Arrays and strings
  * that you hand in are copied before the call returns. Results are copied into
  * your arrays; nothing points into the library but the texts of the _name and
  * _version functions and the last message.
@@ -160,6 +161,18 @@
 /// morula_export_options, for morula_sizeof().
 #define MORULA_STRUCT_EXPORT_OPTIONS 14
 
+/// morula_break_options, for morula_sizeof().
+#define MORULA_STRUCT_BREAK_OPTIONS 15
+
+/// morula_held, for morula_sizeof().
+#define MORULA_STRUCT_HELD 16
+
+/// morula_fragment, for morula_sizeof().
+#define MORULA_STRUCT_FRAGMENT 17
+
+/// morula_break_totals, for morula_sizeof().
+#define MORULA_STRUCT_BREAK_TOTALS 18
+
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 #define MORULA_BODIES_REFUSE 0
 
@@ -303,6 +316,24 @@
 /// Spheres in the body frame: origin at the centre of mass, axes principal.
 #define MORULA_FRAME_BODY 1
 
+/// Spheres of fragments where they stand in the world when the particle breaks.
+#define MORULA_FRAME_WORLD 2
+
+/// Break along planes: each piece that they leave is a fragment.
+#define MORULA_CUT_PLANES 0
+
+/// Keep what lies within all half-spaces; the rest is left out, and its mass goes to what is kept.
+#define MORULA_CUT_WITHIN 1
+
+/// Break into the Voronoi cells of given points, or with weights their power cells.
+#define MORULA_CUT_POINTS 2
+
+/// Break into the Voronoi cells of seeded points (the default).
+#define MORULA_CUT_SEEDED 3
+
+/// Break into the Voronoi cells of seeded points that are the denser the nearer to an impact.
+#define MORULA_CUT_IMPACT 4
+
 /// Want nothing but the spheres.
 #define MORULA_WANT_NOTHING 0
 
@@ -365,6 +396,9 @@
 
 /// Masses that meet the mass alone; centre and inertia have the least error.
 #define MORULA_MASSES_MASS_ONLY 2
+
+/// A fragment without masses of its spheres.
+#define MORULA_MASSES_NONE 3
 
 /// MercuryDPM: a folder with Clump/Clump.txt and Inertia/Mass.txt, TOI.txt, PD.txt.
 #define MORULA_EXPORT_MERCURY 0
@@ -429,6 +463,16 @@ typedef struct morula_clump morula_clump;
 
 /// The files of a format in memory. Made by morula_body_export(), freed by morula_files_free().
 typedef struct morula_files morula_files;
+
+/// The fragments of one break, and its dust. Made by morula_parent_break(), morula_parents_break()
+/// or morula_reclump_shape(), freed by morula_fragments_free(). It does not need the handle of its
+/// parent any more.
+typedef struct morula_fragments morula_fragments;
+
+/// A particle that may break: its solid and the spheres of its clump, with what every break of it
+/// reads. Made once a template by morula_parent_from_solid() or morula_parent_from_clump(), freed
+/// by morula_parent_free(). It needs neither the solid nor the clump any more.
+typedef struct morula_parent morula_parent;
 
 /// A checked shape: something with an inside. Made by the morula_shape_from_
 /// functions, freed by morula_shape_free().
@@ -937,6 +981,160 @@ typedef struct morula_export_options {
   /// Must be 0.
   int32_t reserved;
 } morula_export_options;
+
+/// A rigid body as a solver holds it: the shape in its place, and how it moves. A point x of the
+/// shape is at position + quaternion (scale (x - centre)). Fill it with morula_parent_held(),
+/// morula_fragments_held() or, before its fields are set by hand, morula_held_init().
+typedef struct morula_held {
+  /// sizeof(morula_held).
+  size_t struct_size;
+  /// Mass.
+  double mass;
+  /// Centre of mass, frame and unit of the shape.
+  double centre[3];
+  /// Inertia about the centre along the axes of the shape (not of the body), in mass x length^2
+  /// of the world: xx, yy, zz, xy, xz, yz.
+  double inertia[6];
+  /// What lengths of the shape are multiplied by. Default 1.
+  double scale;
+  /// Where the centre is.
+  double position[3];
+  /// From the axes of the shape to those of the world: w, x, y, z of any length but 0. Default
+  /// 1, 0, 0, 0.
+  double quaternion[4];
+  /// Velocity of the centre.
+  double velocity[3];
+  /// Angular velocity, along the axes of the world.
+  double angular_velocity[3];
+} morula_held;
+
+/// How a particle breaks. Fill it with morula_break_options_init(). Points, directions and
+/// half-spaces are in the frame and unit of the shape.
+typedef struct morula_break_options {
+  /// sizeof(morula_break_options).
+  size_t struct_size;
+  /// MORULA_CUT_PLANES and MORULA_CUT_WITHIN: four numbers each, nx, ny, nz and offset, which
+  /// hold the points p with n . p <= offset; n points out and has any length but 0.
+  const double *half_spaces;
+  /// How many.
+  size_t half_space_count;
+  /// MORULA_CUT_POINTS: x, y, z each.
+  const double *points;
+  /// One a point, in squares of the unit, for power cells; NULL: none.
+  const double *weights;
+  /// How many points.
+  size_t point_count;
+  /// Further half-spaces that no sphere may leave (walls of the scene), as half_spaces.
+  const double *walls;
+  /// How many.
+  size_t wall_count;
+  /// MORULA_CUT_SEEDED and MORULA_CUT_IMPACT: number of cells. Default 4.
+  uint64_t cells;
+  /// MORULA_CUT_IMPACT: where the body is hit.
+  double point[3];
+  /// MORULA_CUT_IMPACT: where to; of any length but 0. Default 1, 0, 0.
+  double direction[3];
+  /// Seed of every random choice. Default 0.
+  uint64_t seed;
+  /// Pieces of less volume become dust; 0: a 1e-9th of the parent's. Default 0.
+  double least_volume;
+  /// Most spheres of a fragment. Default 20.
+  uint64_t spheres;
+  /// Least radius. Default 0.
+  double min_radius;
+  /// Spheres of two fragments are this far apart at least. Default 0.
+  double gap;
+  /// Least mass of a sphere where masses are wanted; negative: a thousandth of the fragment's
+  /// mass, or a tenth of the mean where that is less. Default -1.
+  double m_min;
+  /// Seconds after which the spheres are taken as they are; 0: no deadline. Default 0.
+  double deadline_seconds;
+  /// One of MORULA_CUT_*. Default MORULA_CUT_SEEDED.
+  int32_t kind;
+  /// 1: spheres stay within the union of the parent's, which neighbours touch. Default 1.
+  int32_t within_union;
+  /// One of MORULA_PRECISION_*: MORULA_PRECISION_F32 gives centres and radii that single
+  /// precision holds, in the frame of the shape. Default MORULA_PRECISION_F64.
+  int32_t precision;
+  /// 1: coverage, volume_share and step_factor are wanted. Default 1.
+  int32_t quality;
+  /// 1: a mass for each sphere is wanted. Default 0.
+  int32_t masses;
+  /// Of the masses: one of MORULA_OBJECTIVE_*. Default MORULA_OBJECTIVE_EVEN.
+  int32_t objective;
+  /// Of the masses: one of MORULA_INFEASIBLE_*. Default MORULA_INFEASIBLE_REFUSE, which leaves
+  /// such a fragment without masses.
+  int32_t infeasible;
+  /// Threads of this call; 0: all cores. Default 1. The result does not depend on it.
+  int32_t threads;
+  /// Called now and then on the calling thread; NULL: none.
+  morula_progress progress;
+  /// Handed to `progress`.
+  void *user;
+} morula_break_options;
+
+/// A fragment, or a piece of dust, which has no spheres.
+typedef struct morula_fragment {
+  /// sizeof(morula_fragment), set by the caller.
+  size_t struct_size;
+  /// Mass.
+  double mass;
+  /// Centre of mass, frame and unit of the shape.
+  double centre[3];
+  /// Inertia about it along the axes of the shape, in mass x length^2 of the world: xx, yy, zz,
+  /// xy, xz, yz.
+  double inertia[6];
+  /// Principal moments, ascending.
+  double principal[3];
+  /// Body axes in the frame of the shape, by columns.
+  double rotation[9];
+  /// Where the centre is in the world.
+  double position[3];
+  /// The body axes in the world: w, x, y, z, w >= 0.
+  double quaternion[4];
+  /// Velocity of the centre.
+  double velocity[3];
+  /// Angular velocity, along the axes of the world.
+  double angular_velocity[3];
+  /// Volume, unit of the shape.
+  double volume;
+  /// Share of its volume that its spheres cover; 0 where not wanted.
+  double coverage;
+  /// Volume of the union of its spheres over that of the parent's solid; 0 where not wanted.
+  double volume_share;
+  /// The time step that it allows over that of the parent's clump, for the same spring and
+  /// density; 0: not known (the parent has no spheres, or it was not wanted).
+  double step_factor;
+  /// Of its masses: the greatest |error of I_jk| / sqrt(J_j J_k) in the body frame; 0 where
+  /// there are none.
+  double inertia_residual;
+  /// Spheres.
+  uint64_t sphere_count;
+  /// Pairs of its map.
+  uint64_t map_count;
+  /// Half-spaces that bound it within the parent's solid.
+  uint64_t half_space_count;
+  /// The cell of the cut that it comes from: the number of the point, or of the side.
+  uint64_t cell;
+  /// Why it has no more spheres: one of MORULA_STOPPED_*.
+  int32_t stopped;
+  /// One of MORULA_MASSES_*; MORULA_MASSES_NONE where none were wanted or found (the notes tell).
+  int32_t masses;
+} morula_fragment;
+
+/// What a break has made of the whole.
+typedef struct morula_break_totals {
+  /// sizeof(morula_break_totals), set by the caller.
+  size_t struct_size;
+  /// Kinetic energy of fragments and dust less that of the parent: rounding where the inertia
+  /// of the held body is that of its solid.
+  double energy;
+  /// The greatest entry of the held inertia less that of the pieces, over its greatest.
+  double inertia_error;
+  /// How far the held centre lies from that of the pieces, frame and unit of the shape: by so
+  /// much the centres of all of them are shifted.
+  double shift[3];
+} morula_break_totals;
 
 #ifdef __cplusplus
 extern "C" {
@@ -1955,6 +2153,310 @@ int32_t morula_files_copy_bytes(const struct morula_files *files,
 /// Takes the files back. NULL is ignored; a handle must not be used afterwards.
 /// Threads: no other thread may use the handle.
 void morula_files_free(struct morula_files *files);
+
+/// Makes ready for breaks a particle of spheres that were made elsewhere.
+///
+/// Parameters: `xyzr` holds the `count` spheres of its clump in the frame and unit of the shape, x,
+/// y, z and radius each, or none: then fragments fill the solid, and nothing is known of time steps;
+/// `threads` is the number of threads of this call, 0: all cores.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (threads, a radius); NOT_FINITE (a
+/// sphere); MEMORY_LIMIT (of the solid's options); OUT_OF_MEMORY; INTERNAL.
+/// Ownership: inputs stay the caller's and may be freed at once; free *parent with
+/// morula_parent_free(). *parent is written only on success.
+/// Threads: any thread; the solid is only read. The same bytes come out for any number of threads.
+int32_t morula_parent_from_solid(const struct morula_solid *solid,
+                                 const double *xyzr,
+                                 size_t count,
+                                 int32_t threads,
+                                 struct morula_parent **parent);
+
+/// Makes a particle with its clump ready for breaks.
+///
+/// Parameters: `clump` was made of `solid`; `threads` as morula_parent_from_solid().
+/// Returns: as morula_parent_from_solid(); INVALID_ARGUMENT also for a clump of another solid.
+/// Ownership: as morula_parent_from_solid().
+/// Threads: any thread; solid and clump are only read.
+int32_t morula_parent_from_clump(const struct morula_solid *solid,
+                                 const struct morula_clump *clump,
+                                 int32_t threads,
+                                 struct morula_parent **parent);
+
+/// Bytes that a parent holds beside its solid.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_parent_bytes(const struct morula_parent *parent, uint64_t *bytes);
+
+/// Takes a parent back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_parent_free(struct morula_parent *parent);
+
+/// Fills a body at rest at the origin, with mass, centre and inertia of 0, to be set by hand.
+///
+/// Parameters: `size` is sizeof *held.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_held_init(struct morula_held *held,
+                         size_t size);
+
+/// The body of a whole parent: mass, centre and inertia of its solid, in its place.
+///
+/// Parameters: `density` is mass per (unit of the world)^3; `scale` is what lengths of the shape are
+/// multiplied by; `position` is where the centre is (NULL: where the shape has it, times the
+/// scale); `quaternion` turns the body axes (those of morula_solid_moments()) into the world: w, x,
+/// y, z of any length but 0 (NULL: the shape is not turned); `velocity` and `angular_velocity` hold
+/// three numbers of the world (NULL: 0). `held` is filled: set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INVALID_ARGUMENT (density or scale not
+/// above 0, a quaternion of 0, a size beyond the numbers).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_parent_held(const struct morula_parent *parent,
+                           double density,
+                           double scale,
+                           const double *position,
+                           const double *quaternion,
+                           const double *velocity,
+                           const double *angular_velocity,
+                           struct morula_held *held);
+
+/// The body of fragment `index` (from 0) as the solver holds it now, for it to break again.
+///
+/// Parameters: `position`, `quaternion`, `velocity` and `angular_velocity` as
+/// morula_parent_held(), the quaternion that of the fragment's body axes; NULL: as they were handed
+/// over. `held` is filled: set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INDEX_OUT_OF_RANGE; INVALID_ARGUMENT (a
+/// quaternion of 0).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_held(const struct morula_fragments *fragments,
+                              size_t index,
+                              const double *position,
+                              const double *quaternion,
+                              const double *velocity,
+                              const double *angular_velocity,
+                              struct morula_held *held);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_break_options_init(struct morula_break_options *options,
+                                  size_t size);
+
+/// Breaks a particle, or a fragment of an earlier break, in one call: cuts it, fills the pieces with
+/// spheres, and hands mass, place and velocities over, so that mass, momentum and angular momentum
+/// of fragments and dust are those of the held body.
+///
+/// No sphere crosses a cut, the surface, or a wall, and none of two fragments overlap; in the world
+/// that holds to rounding. A fragment that breaks again is cut out of the first parent anew.
+///
+/// Parameters: `from` is NULL for the whole parent; else fragment `index` (from 0) of `from` breaks,
+/// and `parent` is its parent or NULL; `held` is the body as the solver holds it; `options` may be
+/// NULL for the defaults.
+/// Returns: MORULA_STATUS_OK, also when the deadline passed: then the spheres are coarse;
+/// NULL_POINTER; INVALID_ARGUMENT (an option; the held body; a fragment of another parent);
+/// STRUCT_SIZE; NOT_FINITE (a plane, a point, the held body); INDEX_OUT_OF_RANGE; NO_SPHERES (no
+/// piece holds one); ZERO_VOLUME; EMPTY (nothing is left); TOO_LARGE; MEMORY_LIMIT; CANCELLED;
+/// UNSUPPORTED; OUT_OF_MEMORY; INTERNAL.
+/// Ownership: all inputs stay the caller's and may be freed at once; free *fragments with
+/// morula_fragments_free(). *fragments is written only on success.
+/// Threads: any thread; parent and fragments are only read. The same bytes come out for any number
+/// of threads.
+int32_t morula_parent_break(const struct morula_parent *parent,
+                            const struct morula_fragments *from,
+                            size_t index,
+                            const struct morula_held *held,
+                            const struct morula_break_options *options,
+                            struct morula_fragments **fragments);
+
+/// Breaks all particles that break in one time step. Threads share them, one each; each break is,
+/// byte for byte, what morula_parent_break() gives, and one that fails does not stop the others.
+///
+/// Parameters: `count` breaks; `parents` holds a handle each; `from` a handle or NULL each, with
+/// `indices`, or both are NULL: whole parents break; `held` holds a struct each, one after another;
+/// `options` too, of which the first one's threads, deadline, progress and user are those of the
+/// call; NULL: the defaults. `fragments` has room for `count` handles, and `statuses`, which may be
+/// NULL, for `count` statuses, in the same order.
+/// Returns: MORULA_STATUS_OK; the statuses of morula_parent_break(), of the first break that
+/// failed. Then, with `statuses`, both arrays are written all the same, with NULL for each break
+/// that failed, and the log is told each failure; without, none is written. Arrays that cannot be
+/// read fail as a whole.
+/// Ownership: as morula_parent_break().
+/// Threads: as morula_parent_break().
+int32_t morula_parents_break(const struct morula_parent *const *parents,
+                             const struct morula_fragments *const *from,
+                             const size_t *indices,
+                             const struct morula_held *held,
+                             const struct morula_break_options *options,
+                             size_t count,
+                             struct morula_fragments **fragments,
+                             int32_t *statuses);
+
+/// New spheres for a particle whose shape has changed without breaking: dented, worn, grown.
+///
+/// The old spheres are the start of the search, the map tells which of them each new one comes
+/// from, and mass, momentum and angular momentum of the held body are kept.
+///
+/// Parameters: `xyzr` holds the `count` old spheres (there may be none) in the frame of the new
+/// `solid`, x, y, z and radius each; `held` is the body as the solver holds it, in that frame;
+/// `options` may be NULL for the defaults: half_spaces, if any, are what bounds the body (flats
+/// pressed into it), kind is not read, and within_union is not heeded.
+/// Returns: as morula_parent_break(). *fragments holds one fragment, or as many as the half-spaces
+/// leave components.
+/// Ownership: inputs stay the caller's and may be freed at once; free *fragments with
+/// morula_fragments_free(). *fragments is written only on success.
+/// Threads: any thread; the solid is only read. The same bytes come out for any number of threads.
+int32_t morula_reclump_shape(const struct morula_solid *solid,
+                             const double *xyzr,
+                             size_t count,
+                             const struct morula_held *held,
+                             const struct morula_break_options *options,
+                             struct morula_fragments **fragments);
+
+/// Takes fragments back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_fragments_free(struct morula_fragments *fragments);
+
+/// How many fragments there are; at least 1.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_count(const struct morula_fragments *fragments, size_t *count);
+
+/// How many pieces of dust there are: too small for a sphere or for the volume asked for.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_dust_count(const struct morula_fragments *fragments, size_t *count);
+
+/// What a solver takes of fragment `index` (from 0), and its quality.
+///
+/// Parameters: `fragment` is filled: set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INDEX_OUT_OF_RANGE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_get(const struct morula_fragments *fragments,
+                             size_t index,
+                             struct morula_fragment *fragment);
+
+/// What piece `index` (from 0) of the dust takes over. Its stopped, sphere_count and what concerns
+/// spheres say nothing.
+///
+/// Parameters: `dust` is filled: set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INDEX_OUT_OF_RANGE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_dust(const struct morula_fragments *fragments,
+                              size_t index,
+                              struct morula_fragment *dust);
+
+/// What the break has made of the whole.
+///
+/// Parameters: `totals` is filled: set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_totals(const struct morula_fragments *fragments,
+                                struct morula_break_totals *totals);
+
+/// Copies the spheres of fragment `index` (from 0), the largest first.
+///
+/// Parameters: `frame` is one of MORULA_FRAME_*: that of the shape, in its unit, or the fragment's
+/// body frame or the world, in the unit of the world; `xyzr` has room for `capacity` spheres of four
+/// numbers each: x, y, z and radius (in Fortran an array xyzr(4, n)).
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; INVALID_ARGUMENT (the frame);
+/// BUFFER_TOO_SMALL (nothing is written); OUT_OF_MEMORY.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_copy_spheres(const struct morula_fragments *fragments,
+                                      size_t index,
+                                      int32_t frame,
+                                      size_t capacity,
+                                      double *xyzr);
+
+/// Copies the masses of the spheres of fragment `index` (from 0), in their order. Where their status
+/// is not MORULA_MASSES_EXACT they add up to the fragment's mass, but not to its inertia, which is
+/// exact in morula_fragment.
+///
+/// Parameters: `masses` has room for `capacity` numbers.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; NOT_WANTED (no masses were wanted);
+/// NO_MASSES (none were found: the notes tell why); BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_copy_masses(const struct morula_fragments *fragments,
+                                     size_t index,
+                                     size_t capacity,
+                                     double *masses);
+
+/// Copies which spheres of what broke those of fragment `index` (from 0) come from, so that the
+/// history of contacts can be carried over: for each sphere those of the parent's clump (or, where a
+/// fragment broke, of its own) that it overlaps, the greatest common volume first.
+///
+/// Parameters: `starts` has room for sphere_count + 1 numbers: those of sphere i are the pairs
+/// starts[i] up to starts[i + 1], the last excluded; `parents` (numbers of spheres, from 0) and
+/// `shares` (common volume over the volume of the fragment's sphere) have room for `capacity`
+/// pairs, of which there are map_count.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is
+/// written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_copy_map(const struct morula_fragments *fragments,
+                                  size_t index,
+                                  uint32_t *starts,
+                                  size_t capacity,
+                                  uint32_t *parents,
+                                  double *shares);
+
+/// Copies the half-spaces that bound fragment `index` (from 0) within the first parent's solid: nx,
+/// ny, nz and offset each, in the frame of the shape.
+///
+/// Parameters: `half_spaces` has room for `capacity` of them, of which there are half_space_count.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is
+/// written); OUT_OF_MEMORY.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_copy_half_spaces(const struct morula_fragments *fragments,
+                                          size_t index,
+                                          size_t capacity,
+                                          double *half_spaces);
+
+/// The surface of fragment `index` (from 0) as a shape of its own, in the frame of the shape.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; UNSUPPORTED (the parent is no closed
+/// mesh); the statuses of morula_shape_from_mesh().
+/// Ownership: free *shape with morula_shape_free(). *shape is written only on success.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_shape(const struct morula_fragments *fragments,
+                               size_t index,
+                               struct morula_shape **shape);
+
+/// Copies the spheres of fragment `index` (from 0) grown: inscribed spheres leave part of a fragment
+/// empty, which makes a bed more porous at once; in steps of the host they grow to the radii of least
+/// mismatch. The fragment itself keeps its spheres.
+///
+/// Parameters: `part` is how far, from 0 (as they are) to 1; `others` holds the `other_count` spheres
+/// of siblings and neighbours, x, y, z and radius each, that the grown ones keep `gap` off at
+/// least, as far as they do so now; `frame`, `capacity` and `xyzr` as
+/// morula_fragments_copy_spheres(): others and gap are in that frame and its unit.
+/// Returns: as morula_fragments_copy_spheres(); INVALID_ARGUMENT also for a part, gap or radius out
+/// of its range; NOT_FINITE (a sphere of the others).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_grow(const struct morula_fragments *fragments,
+                              size_t index,
+                              double part,
+                              const double *others,
+                              size_t other_count,
+                              double gap,
+                              int32_t frame,
+                              size_t capacity,
+                              double *xyzr);
+
+/// How many notes there are on a break: sentences that a user should know.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_fragments_note_count(const struct morula_fragments *fragments, size_t *count);
+
+/// Copies note `index` (from 0) with its closing NUL.
+///
+/// Parameters, returns, threads: as morula_shape_copy_note().
+int32_t morula_fragments_copy_note(const struct morula_fragments *fragments,
+                                   size_t index,
+                                   size_t capacity,
+                                   char *text,
+                                   size_t *length);
 
 /// Writes a shape as bytes, for another rank or a restart file: little-endian, with a version and a
 /// checksum. The same shape gives the same bytes.

@@ -40,26 +40,35 @@ struct Asked {
     masses: MassOptions,
 }
 
+fn no_choice<T>(name: &str, value: i32) -> Result<T> {
+    Err(Error::InvalidArgument(format!("{name} is {value}, no choice")))
+}
+
+pub(super) fn objective_of(choice: i32) -> Result<Objective> {
+    match choice {
+        MORULA_OBJECTIVE_EVEN => Ok(Objective::Even),
+        MORULA_OBJECTIVE_MAX_MIN => Ok(Objective::MaxMin),
+        MORULA_OBJECTIVE_MAX_LAST => Ok(Objective::MaxLast),
+        other => no_choice("objective", other),
+    }
+}
+
+pub(super) fn infeasible_of(choice: i32) -> Result<Infeasible> {
+    match choice {
+        MORULA_INFEASIBLE_REFUSE => Ok(Infeasible::Refuse),
+        MORULA_INFEASIBLE_LEAST_ERROR => Ok(Infeasible::LeastError),
+        other => no_choice("infeasible", other),
+    }
+}
+
 fn asked(o: &morula_mass_options) -> Result<Asked> {
-    let no_choice = |name: &str, value: i32| {
-        Err(Error::InvalidArgument(format!("{name} is {value}, no choice")))
-    };
     let union = match o.target {
         MORULA_TARGET_SOLID => false,
         MORULA_TARGET_UNION => true,
         other => return no_choice("target", other),
     };
-    let objective = match o.objective {
-        MORULA_OBJECTIVE_EVEN => Objective::Even,
-        MORULA_OBJECTIVE_MAX_MIN => Objective::MaxMin,
-        MORULA_OBJECTIVE_MAX_LAST => Objective::MaxLast,
-        other => return no_choice("objective", other),
-    };
-    let infeasible = match o.infeasible {
-        MORULA_INFEASIBLE_REFUSE => Infeasible::Refuse,
-        MORULA_INFEASIBLE_LEAST_ERROR => Infeasible::LeastError,
-        other => return no_choice("infeasible", other),
-    };
+    let objective = objective_of(o.objective)?;
+    let infeasible = infeasible_of(o.infeasible)?;
     // NaN is neither below 0 nor equal to it, and refused where it is read.
     let m_min = if o.m_min < 0.0 { None } else { Some(o.m_min) };
     let m_max = if o.m_max == 0.0 { None } else { Some(o.m_max) };

@@ -187,15 +187,20 @@ pub unsafe extern "C" fn morula_body_masses(
             inertia_residual: m.residuals.inertia,
             spread: m.spread,
             union_inertia_error: body.lacking,
-            status: match m.status {
-                MassStatus::Exact => MORULA_MASSES_EXACT,
-                MassStatus::Relaxed => MORULA_MASSES_RELAXED,
-                MassStatus::MassOnly => MORULA_MASSES_MASS_ONLY,
-            },
+            status: status_choice(m.status),
             binding: u32::try_from(m.binding.len()).unwrap_or(u32::MAX),
         };
         unsafe { fill(masses, &value) }
     })
+}
+
+/// The number of a status.
+pub(super) fn status_choice(status: MassStatus) -> i32 {
+    match status {
+        MassStatus::Exact => MORULA_MASSES_EXACT,
+        MassStatus::Relaxed => MORULA_MASSES_RELAXED,
+        MassStatus::MassOnly => MORULA_MASSES_MASS_ONLY,
+    }
 }
 
 /// The word for a MORULA_MASSES_* number ("relaxed").
@@ -208,6 +213,7 @@ pub extern "C" fn morula_masses_status_name(status: i32) -> *const c_char {
         MORULA_MASSES_EXACT => c"exact",
         MORULA_MASSES_RELAXED => c"relaxed",
         MORULA_MASSES_MASS_ONLY => c"mass_only",
+        MORULA_MASSES_NONE => c"none",
         _ => c"unknown",
     };
     name.as_ptr()

@@ -28,6 +28,14 @@ pub const MORULA_STRUCT_CONTACT_OPTIONS: i32 = 12;
 pub const MORULA_STRUCT_TIMESTEP: i32 = 13;
 /// morula_export_options, for morula_sizeof().
 pub const MORULA_STRUCT_EXPORT_OPTIONS: i32 = 14;
+/// morula_break_options, for morula_sizeof().
+pub const MORULA_STRUCT_BREAK_OPTIONS: i32 = 15;
+/// morula_held, for morula_sizeof().
+pub const MORULA_STRUCT_HELD: i32 = 16;
+/// morula_fragment, for morula_sizeof().
+pub const MORULA_STRUCT_FRAGMENT: i32 = 17;
+/// morula_break_totals, for morula_sizeof().
+pub const MORULA_STRUCT_BREAK_TOTALS: i32 = 18;
 
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 pub const MORULA_BODIES_REFUSE: i32 = 0;
@@ -137,6 +145,19 @@ pub const MORULA_CANDIDATES_ANALYTIC: i32 = 1;
 pub const MORULA_FRAME_INPUT: i32 = 0;
 /// Spheres in the body frame: origin at the centre of mass, axes principal.
 pub const MORULA_FRAME_BODY: i32 = 1;
+/// Spheres of fragments where they stand in the world when the particle breaks.
+pub const MORULA_FRAME_WORLD: i32 = 2;
+
+/// Break along planes: each piece that they leave is a fragment.
+pub const MORULA_CUT_PLANES: i32 = 0;
+/// Keep what lies within all half-spaces; the rest is left out, and its mass goes to what is kept.
+pub const MORULA_CUT_WITHIN: i32 = 1;
+/// Break into the Voronoi cells of given points, or with weights their power cells.
+pub const MORULA_CUT_POINTS: i32 = 2;
+/// Break into the Voronoi cells of seeded points (the default).
+pub const MORULA_CUT_SEEDED: i32 = 3;
+/// Break into the Voronoi cells of seeded points that are the denser the nearer to an impact.
+pub const MORULA_CUT_IMPACT: i32 = 4;
 
 /// Want nothing but the spheres.
 pub const MORULA_WANT_NOTHING: u32 = 0;
@@ -185,6 +206,8 @@ pub const MORULA_MASSES_EXACT: i32 = 0;
 pub const MORULA_MASSES_RELAXED: i32 = 1;
 /// Masses that meet the mass alone; centre and inertia have the least error.
 pub const MORULA_MASSES_MASS_ONLY: i32 = 2;
+/// A fragment without masses of its spheres.
+pub const MORULA_MASSES_NONE: i32 = 3;
 
 /// MercuryDPM: a folder with Clump/Clump.txt and Inertia/Mass.txt, TOI.txt, PD.txt.
 pub const MORULA_EXPORT_MERCURY: i32 = 0;

@@ -47,7 +47,7 @@ pub(super) struct Asked {
 }
 
 /// `count` rows of N numbers.
-unsafe fn rows<'a, const N: usize>(
+pub(super) unsafe fn rows<'a, const N: usize>(
     pointer: *const f64,
     count: usize,
     name: &str,
@@ -55,8 +55,12 @@ unsafe fn rows<'a, const N: usize>(
     unsafe { slice(pointer.cast::<[f64; N]>(), count, name) }
 }
 
-unsafe fn half_spaces(o: &morula_clump_options) -> Result<Vec<HalfSpace>> {
-    let all = unsafe { rows::<4>(o.half_spaces, o.half_space_count, "half_spaces")? };
+pub(super) unsafe fn half_space_rows(
+    pointer: *const f64,
+    count: usize,
+    name: &str,
+) -> Result<Vec<HalfSpace>> {
+    let all = unsafe { rows::<4>(pointer, count, name)? };
     let each =
         all.iter().map(|&[x, y, z, offset]| HalfSpace { normal: Vec3::new(x, y, z), offset });
     collected("half-spaces", each)
@@ -126,7 +130,7 @@ pub(super) unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<(
         overshoot_weight: o.overshoot_weight,
         max_protrusion: o.max_protrusion,
         max_radius: o.max_radius,
-        half_spaces: unsafe { half_spaces(&o)? },
+        half_spaces: unsafe { half_space_rows(o.half_spaces, o.half_space_count, "half_spaces")? },
         connected: yes("connected", o.connected)?,
         equal_volume: yes("equal_volume", o.equal_volume)?,
         smoothness: o.smoothness,

@@ -64,6 +64,19 @@ pub unsafe extern "C" fn morula_clump_copy_spheres(
     })
 }
 
+/// The number of a reason to stop.
+pub(super) fn stopped_choice(stopped: Stopped) -> i32 {
+    match stopped {
+        Stopped::Spheres => MORULA_STOPPED_SPHERES,
+        Stopped::Mismatch => MORULA_STOPPED_MISMATCH,
+        Stopped::Radius => MORULA_STOPPED_RADIUS,
+        Stopped::Deadline => MORULA_STOPPED_DEADLINE,
+        Stopped::Cancelled => MORULA_STOPPED_CANCELLED,
+        Stopped::Exhausted => MORULA_STOPPED_EXHAUSTED,
+        Stopped::Coverage => MORULA_STOPPED_COVERAGE,
+    }
+}
+
 /// Why the method stopped: one of MORULA_STOPPED_*.
 ///
 /// Returns: MORULA_STATUS_OK; NULL_POINTER.
@@ -75,16 +88,7 @@ pub unsafe extern "C" fn morula_clump_stopped(
 ) -> i32 {
     guard(|| {
         let clump = unsafe { borrow(clump, "clump")? };
-        let value = match clump.inner.stopped {
-            Stopped::Spheres => MORULA_STOPPED_SPHERES,
-            Stopped::Mismatch => MORULA_STOPPED_MISMATCH,
-            Stopped::Radius => MORULA_STOPPED_RADIUS,
-            Stopped::Deadline => MORULA_STOPPED_DEADLINE,
-            Stopped::Cancelled => MORULA_STOPPED_CANCELLED,
-            Stopped::Exhausted => MORULA_STOPPED_EXHAUSTED,
-            Stopped::Coverage => MORULA_STOPPED_COVERAGE,
-        };
-        unsafe { put(stopped, value, "stopped") }
+        unsafe { put(stopped, stopped_choice(clump.inner.stopped), "stopped") }
     })
 }
 

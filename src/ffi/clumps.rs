@@ -34,14 +34,16 @@ pub unsafe extern "C" fn morula_clumps_from_solid(
 ) -> i32 {
     guard(|| {
         let solid = unsafe { borrow(solid, "solid")? };
-        room(count, clumps, std::ptr::null_mut())?;
+        room(count, clumps, "clumps", std::ptr::null_mut())?;
         let counts = unsafe { slice(spheres, count, "spheres")? };
         let (asked, run) = unsafe { asked(options)? };
         let mut wanted = reserve("numbers of spheres", count)?;
         wanted.extend(counts.iter().map(|&n| usize::try_from(n).unwrap_or(usize::MAX)));
         let made = levels(&solid.inner, &asked.generate, &wanted, &run);
         let made = made.into_iter().map(|c| asked.wrap(&solid.inner, c?, &solid.counters));
-        unsafe { give_all("level", made.collect(), clumps, std::ptr::null_mut()) }
+        unsafe {
+            give_all("level", made.collect(), clumps, std::ptr::null_mut(), morula_clump::log)
+        }
     })
 }
 
@@ -69,7 +71,7 @@ pub unsafe extern "C" fn morula_clumps_from_shapes(
     statuses: *mut i32,
 ) -> i32 {
     guard(|| {
-        room(count, clumps, statuses)?;
+        room(count, clumps, "clumps", statuses)?;
         let handles = unsafe { slice(shapes, count, "shapes")? };
         let mut shapes = reserve("shapes", count)?;
         for (i, &handle) in handles.iter().enumerate() {
@@ -80,7 +82,7 @@ pub unsafe extern "C" fn morula_clumps_from_shapes(
         let made = each(count, &run, |k, run| {
             one(&shapes[k].inner, &shapes[k].counters, &grid, &asked, run)
         });
-        unsafe { give_all("shape", made, clumps, statuses) }
+        unsafe { give_all("shape", made, clumps, statuses, morula_clump::log) }
     })
 }
 
@@ -108,7 +110,7 @@ pub unsafe extern "C" fn morula_clumps_from_labels(
     statuses: *mut i32,
 ) -> i32 {
     guard(|| {
-        room(count, clumps, statuses)?;
+        room(count, clumps, "clumps", statuses)?;
         let (import, _, _) = unsafe { import(import_options)? };
         let layout = unsafe { layout(dims, spacing, origin)? };
         let labels = unsafe { cells(labels, layout.dims, "labels")? };
@@ -118,7 +120,7 @@ pub unsafe extern "C" fn morula_clumps_from_labels(
         let made = each_label(labels, &layout, wanted, &import, &run, |shape, run| {
             one(shape, &Counters::default(), &grid, &asked, run)
         })?;
-        unsafe { give_all("label at", made, clumps, statuses) }
+        unsafe { give_all("label at", made, clumps, statuses, morula_clump::log) }
     })
 }
 
@@ -134,22 +136,28 @@ fn one(
     asked.wrap(&solid, generate(&solid, &asked.generate, run)?, before)
 }
 
-/// Whether there may be room for `count` clumps, and statuses where they are asked for.
-fn room(count: usize, clumps: *mut *mut morula_clump, statuses: *mut i32) -> Result<()> {
+/// Whether there may be room for `count` handles, and statuses where they are asked for.
+pub(super) fn room<T>(
+    count: usize,
+    handles: *mut *mut T,
+    name: &str,
+    statuses: *mut i32,
+) -> Result<()> {
     if count == 0 {
         return Ok(());
     }
-    check_bytes::<*mut morula_clump>(count, "clumps")?;
-    require(clumps, "clumps")?;
+    check_bytes::<*mut T>(count, name)?;
+    require(handles, name)?;
     if statuses.is_null() { Ok(()) } else { require(statuses, "statuses") }
 }
 
-/// Hands clumps over; without `statuses` all of them or none.
-unsafe fn give_all(
+/// Hands what was made over, told to the log; without `statuses` all of it or nothing.
+pub(super) unsafe fn give_all<T>(
     what: &str,
-    made: Vec<Result<morula_clump>>,
-    clumps: *mut *mut morula_clump,
+    made: Vec<Result<T>>,
+    handles: *mut *mut T,
     statuses: *mut i32,
+    tell: impl Fn(&T),
 ) -> Result<()> {
     let failed = |(i, e): (usize, &Error)| e.about(&format!("{what} {i}"));
     let failures = made.iter().enumerate().filter_map(|(i, c)| Some((i, c.as_ref().err()?)));
@@ -163,14 +171,14 @@ unsafe fn give_all(
             log(MORULA_LOG_WARNING, || failed(failure).to_string());
         }
     }
-    for (i, clump) in made.into_iter().enumerate() {
-        let status = clump.as_ref().err().map_or(super::MORULA_STATUS_OK, Error::status);
-        let handle = clump.map_or(std::ptr::null_mut(), |clump| {
-            clump.log();
-            Box::into_raw(Box::new(clump))
+    for (i, one) in made.into_iter().enumerate() {
+        let status = one.as_ref().err().map_or(super::MORULA_STATUS_OK, Error::status);
+        let handle = one.map_or(std::ptr::null_mut(), |one| {
+            tell(&one);
+            Box::into_raw(Box::new(one))
         });
         unsafe {
-            clumps.add(i).write(handle);
+            handles.add(i).write(handle);
             if !statuses.is_null() {
                 statuses.add(i).write(status);
             }

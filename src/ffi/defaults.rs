@@ -2,6 +2,7 @@
 //! had in the first release.
 
 use super::choices::*;
+use super::fragment_structs::*;
 use super::mass_structs::*;
 use super::options::Versioned;
 use super::structs::*;
@@ -151,6 +152,53 @@ versioned!(
         reserved: 0,
     }
 );
+versioned!(
+    morula_break_options, 224;
+    morula_break_options {
+        struct_size: size_of::<Self>(),
+        half_spaces: std::ptr::null(),
+        half_space_count: 0,
+        points: std::ptr::null(),
+        weights: std::ptr::null(),
+        point_count: 0,
+        walls: std::ptr::null(),
+        wall_count: 0,
+        cells: 4,
+        point: [0.0; 3],
+        direction: [1.0, 0.0, 0.0],
+        seed: 0,
+        least_volume: 0.0,
+        spheres: 20,
+        min_radius: 0.0,
+        gap: 0.0,
+        m_min: -1.0,
+        deadline_seconds: 0.0,
+        kind: MORULA_CUT_SEEDED,
+        within_union: 1,
+        precision: MORULA_PRECISION_F64,
+        quality: 1,
+        masses: 0,
+        objective: MORULA_OBJECTIVE_EVEN,
+        infeasible: MORULA_INFEASIBLE_REFUSE,
+        threads: 1,
+        progress: None,
+        user: std::ptr::null_mut(),
+    }
+);
+versioned!(
+    morula_held, 200;
+    morula_held {
+        struct_size: size_of::<Self>(),
+        mass: 0.0,
+        centre: [0.0; 3],
+        inertia: [0.0; 6],
+        scale: 1.0,
+        position: [0.0; 3],
+        quaternion: [1.0, 0.0, 0.0, 0.0],
+        velocity: [0.0; 3],
+        angular_velocity: [0.0; 3],
+    }
+);
 /// All-zero structs: every field of these is a number.
 macro_rules! filled {
     ($($name:ident $first:expr),*) => {$(
@@ -159,7 +207,8 @@ macro_rules! filled {
 }
 filled!(
     morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 64,
-    morula_counters 112, morula_masses 80, morula_timestep 56
+    morula_counters 112, morula_masses 80, morula_timestep 56,
+    morula_fragment 368, morula_break_totals 48
 );
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -187,5 +236,9 @@ mod tests {
         listed::<morula_contact_options>();
         listed::<morula_timestep>();
         listed::<morula_export_options>();
+        listed::<morula_break_options>();
+        listed::<morula_held>();
+        listed::<morula_fragment>();
+        listed::<morula_break_totals>();
     }
 }

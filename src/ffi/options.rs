@@ -7,6 +7,7 @@
 //! does not know are zero.
 
 use super::choices::*;
+use super::fragment_structs::*;
 use super::mass_structs::*;
 use super::structs::*;
 use crate::error::{Error, Result};
@@ -68,6 +69,30 @@ pub(super) unsafe fn read<T: Versioned>(pointer: *const T) -> Result<T> {
     Ok(value)
 }
 
+/// An array of the caller's, whose structs stand one after another, all as large as the first.
+pub(super) unsafe fn read_all<T: Versioned>(pointer: *const T, count: usize) -> Result<Vec<T>> {
+    let mut all = crate::error::reserve(T::NAME, count)?;
+    if count == 0 {
+        return Ok(all);
+    }
+    super::guard::require(pointer, T::NAME)?;
+    let size = unsafe { pointer.cast::<usize>().read() };
+    known::<T>(size)?;
+    for i in 0..count {
+        let one = unsafe { pointer.cast::<u8>().add(i * size).cast::<T>() };
+        super::guard::require(one, T::NAME)?;
+        let own = unsafe { one.cast::<usize>().read() };
+        if own != size {
+            return Err(Error::StructSize(format!(
+                "struct_size of {} {i} is {own}, but {size} of the first",
+                T::NAME
+            )));
+        }
+        all.push(unsafe { read(one)? });
+    }
+    Ok(all)
+}
+
 /// Checks a struct that the library is to fill, before the work is done.
 pub(super) unsafe fn check<T: Versioned>(pointer: *mut T) -> Result<()> {
     super::guard::require(pointer, T::NAME)?;
@@ -117,6 +142,10 @@ pub(super) fn size_of_struct(which: i32) -> usize {
         MORULA_STRUCT_CONTACT_OPTIONS => size_of::<morula_contact_options>(),
         MORULA_STRUCT_TIMESTEP => size_of::<morula_timestep>(),
         MORULA_STRUCT_EXPORT_OPTIONS => size_of::<morula_export_options>(),
+        MORULA_STRUCT_BREAK_OPTIONS => size_of::<morula_break_options>(),
+        MORULA_STRUCT_HELD => size_of::<morula_held>(),
+        MORULA_STRUCT_FRAGMENT => size_of::<morula_fragment>(),
+        MORULA_STRUCT_BREAK_TOTALS => size_of::<morula_break_totals>(),
         _ => 0,
     }
 }

@@ -12,11 +12,12 @@ use crate::run::{Counters, Run};
 use crate::shape::Shape;
 use crate::solid::{Resolution, Solid, SolidOptions};
 use std::ffi::c_char;
+use std::sync::Arc;
 
 /// A shape with a grid. Made by morula_solid_from_shape(), freed by
 /// morula_solid_free(). It does not need its shape any more.
 pub struct morula_solid {
-    pub(super) inner: Solid,
+    pub(super) inner: Arc<Solid>,
     /// Of the calls that made its shape and itself.
     pub(super) counters: Counters,
 }
@@ -98,7 +99,7 @@ pub unsafe extern "C" fn morula_solid_from_shape(
         require(solid, "solid")?;
         let o = unsafe { read(options)? };
         let run = run(o.threads, o.progress, o.user)?;
-        let inner = build(&shape.inner, &o, &run)?;
+        let inner = Arc::new(build(&shape.inner, &o, &run)?);
         let counters = shape.counters.then(&run.counters());
         unsafe { give(solid, morula_solid { inner, counters }) };
         Ok(())

@@ -18,8 +18,8 @@ pub struct ParentMap {
 }
 
 impl ParentMap {
-    /// Of spheres in one frame.
-    pub(super) fn new(parents: &[Sphere], spheres: &[Sphere]) -> Result<ParentMap> {
+    /// Of spheres in one frame: which of `parents` those of a fragment come from.
+    pub fn between(parents: &[Sphere], spheres: &[Sphere]) -> Result<ParentMap> {
         let mut map =
             ParentMap { starts: reserve("the map", spheres.len() + 1)?, ..Self::default() };
         map.starts.push(0);
@@ -73,7 +73,7 @@ mod tests {
     fn the_most_common_volume_comes_first() {
         let ball = |x: f64, r: f64| Sphere::new(Vec3::new(x, 0.0, 0.0), r);
         let parents = [ball(-2.0, 0.5), ball(0.0, 1.0), ball(1.0, 0.5), ball(0.3, 0.2)];
-        let map = ParentMap::new(&parents, &[ball(0.5, 0.5), ball(9.0, 1.0)]).unwrap();
+        let map = ParentMap::between(&parents, &[ball(0.5, 0.5), ball(9.0, 1.0)]).unwrap();
         assert_eq!((map.of(0), map.of(1), map.of(2)), (&[1, 2, 3][..], &[][..], &[][..]));
         assert_eq!(map.shares[0], 1.0);
         assert!((map.shares[2] - 0.064).abs() < 1e-12);

@@ -7,6 +7,7 @@
 //! of least kinetic energy. The difference is told.
 
 use crate::error::{Error, Result, figure, reserve};
+use crate::mass::Body;
 use crate::math::{Inertia, Moments, PrincipalFrame, Vec3};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion};
 
@@ -73,7 +74,68 @@ pub struct HandOver {
 /// Below this part of its greatest entry inertia is rounding.
 const ROUNDING: f64 = 1e-13;
 
+/// A rotation of any length but 0, `w, x, y, z`.
+fn turn_of(rotation: &[f64; 4], whose: &str) -> Result<UnitQuaternion<f64>> {
+    let most = rotation.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+    if !rotation.iter().all(|c| c.is_finite()) {
+        return Err(Error::NotFinite(format!("{whose} rotation is not finite")));
+    }
+    if most == 0.0 {
+        return Err(Error::InvalidArgument(format!("{whose} rotation is 0")));
+    }
+    let [w, x, y, z] = rotation.map(|c| c / most);
+    Ok(UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)))
+}
+
+impl Moving {
+    /// A point of the shape in the body frame, in the unit of the world.
+    pub fn to_body(&self, p: &Vec3, scale: f64) -> Vec3 {
+        self.principal.axes.transpose() * (p - self.center) * scale
+    }
+
+    /// A point of the shape in the world.
+    pub fn to_world(&self, p: &Vec3, scale: f64) -> Vec3 {
+        let [w, x, y, z] = self.rotation;
+        let turn = UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z));
+        self.position + turn * self.to_body(p, scale)
+    }
+}
+
 impl Held {
+    /// A body of a shape at rest, in its place times the scale. Refused: a scale that is not above
+    /// 0, and sizes beyond the numbers.
+    pub fn of_body(body: &Body, scale: f64) -> Result<Held> {
+        let volume = scale * scale * scale;
+        let inertia = body.inertia.matrix() * (volume * scale * scale);
+        let (mass, position) = (body.mass * volume, body.center * scale);
+        let finite = inertia.iter().chain(position.iter()).all(|v| v.is_finite());
+        if !(scale.is_finite() && scale > 0.0 && mass > 0.0 && mass.is_finite() && finite) {
+            return Err(Error::InvalidArgument(format!(
+                "scale is {}, and the body's mass {}",
+                figure(scale),
+                figure(body.mass)
+            )));
+        }
+        Ok(Held {
+            mass,
+            center: body.center,
+            inertia: Inertia::from_matrix(&inertia),
+            scale,
+            position,
+            rotation: [1.0, 0.0, 0.0, 0.0],
+            velocity: Vec3::zeros(),
+            angular_velocity: Vec3::zeros(),
+        })
+    }
+
+    /// Turns it so that its body axes, `axes` in the frame of the shape, are turned to `rotation`
+    /// in the world.
+    pub fn turn_to(&mut self, rotation: [f64; 4], axes: [f64; 4]) -> Result<()> {
+        let both = turn_of(&rotation, "the body's")? * turn_of(&axes, "the axes'")?.inverse();
+        self.rotation = [both.w, both.i, both.j, both.k];
+        Ok(())
+    }
+
     fn check(&self) -> Result<UnitQuaternion<f64>> {
         let entries = self.inertia.to_array();
         let all = self.center.iter().chain(&entries).chain(self.position.iter());
@@ -98,12 +160,7 @@ impl Held {
                 )));
             }
         }
-        let most = self.rotation.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-        if most == 0.0 {
-            return Err(Error::InvalidArgument("the parent's rotation is 0".into()));
-        }
-        let [w, x, y, z] = self.rotation.map(|c| c / most);
-        Ok(UnitQuaternion::new_normalize(Quaternion::new(w, x, y, z)))
+        turn_of(&self.rotation, "the parent's")
     }
 
     /// Hands this body over to its pieces, the moments of which are at unit density in the frame

@@ -179,7 +179,7 @@ pub fn reclump(
         stopped = Stopped::Exhausted;
     }
     let unit = collected("spheres", spheres.iter().map(|s| frame.sphere_to_unit(s)))?;
-    let map = ParentMap::new(parent.unit_spheres(), &unit)?;
+    let map = ParentMap::between(parent.unit_spheres(), &unit)?;
     let mut found =
         Reclump { spheres, stopped, map, coverage: 0.0, volume_share: 0.0, step_factor: None };
     if options.quality && stopped != Stopped::Cancelled {
