@@ -9,6 +9,7 @@ use super::{Mark, Region};
 use crate::error::{Error, Result, collected, filled, fits, push, reserve};
 use crate::generate::Plane;
 use crate::math::Vec3;
+use crate::shape::Voxels;
 use crate::solid::moments::Sums;
 
 /// As near to a plane as this in the unit frame counts as on it.
@@ -49,6 +50,11 @@ pub(super) struct Found {
 }
 
 impl Found {
+    /// The cells of which something is left, and whether that is less than the whole.
+    pub fn cells(&self) -> impl Iterator<Item = (usize, bool)> {
+        self.nodes.iter().map(|n| (n.cell, n.cut.is_some()))
+    }
+
     /// The component of a cell of the lattice, if anything of it is left.
     pub fn component(&self, at: [usize; 3]) -> Option<usize> {
         let mut local = [0; 3];
@@ -61,14 +67,22 @@ impl Found {
     }
 }
 
+impl<'a> Blocks<'a> {
+    /// Of voxels.
+    pub fn of(v: &'a Voxels, limit: u64) -> Blocks<'a> {
+        let (spacing, dims, cells) = (v.spacing, v.dims, v.cells.as_slice());
+        Blocks { origin: Vec3::zeros(), spacing, dims, cells, limit }
+    }
+}
+
 impl Blocks<'_> {
-    fn place(&self, cell: usize) -> [usize; 3] {
+    pub fn place(&self, cell: usize) -> [usize; 3] {
         let [nx, ny, _] = self.dims;
         [cell % nx, cell / nx % ny, cell / (nx * ny)]
     }
 
     /// Corners of a cell.
-    fn corners(&self, at: [usize; 3]) -> [Vec3; 2] {
+    pub fn corners(&self, at: [usize; 3]) -> [Vec3; 2] {
         [0, 1]
             .map(|up| Vec3::from_fn(|a, _| self.origin[a] + (at[a] + up) as f64 * self.spacing[a]))
     }
@@ -152,16 +166,8 @@ impl Blocks<'_> {
     ) -> Result<Option<Node>> {
         let [lo, hi] = self.corners(at);
         let middle = (lo + hi) * 0.5;
-        through.clear();
-        for plane in planes {
-            let h = plane.normal.dot(&middle) - plane.offset;
-            let reach = 0.5 * plane.normal.abs().dot(&self.spacing);
-            if h >= reach - ON {
-                return Ok(None);
-            }
-            if h > ON - reach {
-                through.push(*plane);
-            }
+        if !self.through(planes, &middle, through) {
+            return Ok(None);
         }
         if through.is_empty() {
             return Ok(Some(Node { cell, cut: None }));
@@ -173,6 +179,22 @@ impl Blocks<'_> {
             return Ok(None);
         }
         Ok(Some(Node { cell, cut: Some(Box::new((sums, *piece.bounds()))) }))
+    }
+
+    /// The planes that cut the cell about a point; whether anything of it lies within them all.
+    pub fn through(&self, planes: &[Plane], middle: &Vec3, through: &mut Vec<Plane>) -> bool {
+        through.clear();
+        for plane in planes {
+            let h = plane.normal.dot(middle) - plane.offset;
+            let reach = 0.5 * plane.normal.abs().dot(&self.spacing);
+            if h >= reach - ON {
+                return false;
+            }
+            if h > ON - reach {
+                through.push(*plane);
+            }
+        }
+        true
     }
 
     /// Finds what hangs together.

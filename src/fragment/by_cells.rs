@@ -29,9 +29,7 @@ pub(super) fn of_blocks(
     let (blocks, body, columns) = match solid.body() {
         Body::Voxels(v) => {
             let hi = Vec3::from_fn(|a, _| v.dims[a] as f64 * v.spacing[a]);
-            let (dims, cells) = (v.dims, v.cells.as_slice());
-            let origin = Vec3::zeros();
-            (Blocks { origin, spacing: v.spacing, dims, cells, limit }, [Vec3::zeros(), hi], None)
+            (Blocks::of(v, limit), [Vec3::zeros(), hi], None)
         }
         Body::Mesh(mesh) => {
             let mut columns = reserve("columns", 3)?;

@@ -1,6 +1,7 @@
 //! Cutting a solid, or a region of one, into regions and dust.
 
 use super::Region;
+use super::blocks::Blocks;
 use super::by_cells::of_blocks;
 use super::cells::{Cells, Cut};
 use super::piece::{Kin, Piece, arrange};
@@ -208,13 +209,24 @@ pub(super) fn missed(cuts: &[bool], notes: &mut Vec<String>) {
 
 /// The surface of a region as a shape of its own, in the caller's frame.
 ///
-/// Errors: as those of [`Shape::from_mesh`]; several bodies that touch are kept as one.
+/// Of voxels it is a mesh: the faces of cells, with what planes cut of them cut. A mesh that is open or
+/// crosses itself has no surface that could be cut: its regions are known by their columns alone.
+///
+/// Errors: `Unsupported` for these; as those of [`Shape::from_mesh`]. Several bodies that touch are
+/// kept as one.
 pub fn shape(solid: &Solid, region: &Region, run: &Run) -> Result<Shape> {
-    let Some(mesh) = exact_mesh(solid, run)? else {
-        return Err(Error::Unsupported("only closed meshes are cut".into()));
+    let surface = match (exact_mesh(solid, run)?, solid.body()) {
+        (Some(mesh), _) => {
+            let (piece, kin) = Piece::of_region(mesh, region)?;
+            piece.own(&kin)?
+        }
+        (None, Body::Voxels(v)) => Blocks::of(v, solid.memory_limit()).skin(region)?,
+        (None, Body::Mesh(_)) => {
+            return Err(Error::Unsupported(
+                "a mesh that is open or crosses itself has no surface that could be cut".into(),
+            ));
+        }
     };
-    let (piece, kin) = Piece::of_region(mesh, region)?;
-    let surface = piece.own(&kin)?;
     let frame = solid.frame();
     let mut vertices: Vec<[f64; 3]> = Vec::new();
     for v in &surface.vertices {

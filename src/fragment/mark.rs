@@ -7,6 +7,7 @@
 
 use crate::error::{Result, filled, push};
 use crate::math::Vec3;
+use serde::{Deserialize, Serialize};
 
 /// Most cells: 32 KiB of bits.
 const CELLS: f64 = 262_144.0;
@@ -14,11 +15,12 @@ const CELLS: f64 = 262_144.0;
 const LONGEST: f64 = 512.0;
 
 /// The mark of one component.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
     lo: Vec3,
     step: f64,
     dims: [usize; 3],
+    #[serde(with = "super::mark_bits")]
     bits: Vec<u64>,
 }
 
@@ -203,6 +205,14 @@ impl Mark {
             found |= beyond.norm_squared() < radius * radius && self.is_set(i);
         });
         found
+    }
+
+    /// Whether its numbers are those of a mark: for bytes that come from outside.
+    pub(crate) fn is_whole(&self) -> bool {
+        let [nx, ny, nz] = self.dims.map(|n| n as u64);
+        let cells = nx.checked_mul(ny).and_then(|n| n.checked_mul(nz));
+        let fits = cells.is_some_and(|n| n > 0 && n.div_ceil(64) == self.bits.len() as u64);
+        fits && self.step.is_normal() && self.step > 0.0 && self.lo.iter().all(|x| x.is_finite())
     }
 
     /// Bytes of its bits.

@@ -6,6 +6,7 @@
 
 mod blocks;
 mod by_cells;
+mod cache;
 mod cap;
 mod cells;
 mod climb;
@@ -15,9 +16,11 @@ mod cut;
 mod ears;
 mod field;
 mod grow;
+mod hash;
 mod labels;
 mod map;
 mod mark;
+mod mark_bits;
 mod motion;
 mod parent;
 mod parts;
@@ -27,9 +30,11 @@ mod region;
 mod reshape;
 mod room;
 mod shatter;
+mod skin;
 mod spread;
 mod union;
 
+pub use cache::{Cache, CacheCounters};
 pub use cells::Cut;
 pub use cut::{CutOptions, Dust, Fragments, cut, cut_region, shape};
 pub use grow::{grow, grown_radii};

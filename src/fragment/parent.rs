@@ -10,7 +10,7 @@ use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::solid::Solid;
 use crate::solid::nearest::Surface;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Balls about the medial axis that are kept as candidates.
 const CANDIDATES: usize = 3000;
@@ -28,6 +28,9 @@ pub struct Parent {
     narrow: Option<Narrow>,
     step: Option<f64>,
     bytes: u64,
+    /// Of the solid's arrays.
+    held: u64,
+    hash: OnceLock<u128>,
 }
 
 /// What the surface and the union of the spheres have in common.
@@ -90,7 +93,8 @@ impl Parent {
             Body::of_solid(&solid, 1.0).ok().and_then(|body| step_of(&input, &body))
         };
         run.count(|c| c.peak_bytes = c.peak_bytes.max(held + bytes));
-        Ok(Parent { solid, spheres, medial, field, narrow, step, bytes })
+        let hash = OnceLock::new();
+        Ok(Parent { solid, spheres, medial, field, narrow, step, bytes, held, hash })
     }
 
     /// Of a solid of a new shape and the spheres of its old clump (caller's frame), which are what
@@ -113,7 +117,8 @@ impl Parent {
         let body = Body::of_solid(&solid, 1.0).ok().filter(|_| !input.is_empty());
         let step = body.and_then(|body| step_of(&input, &body));
         run.count(|c| c.peak_bytes = c.peak_bytes.max(held + bytes));
-        Ok(Parent { solid, spheres, medial, field, narrow: None, step, bytes })
+        let hash = OnceLock::new();
+        Ok(Parent { solid, spheres, medial, field, narrow: None, step, bytes, held, hash })
     }
 
     /// The solid.
@@ -129,6 +134,30 @@ impl Parent {
     /// Bytes that it holds beside the solid.
     pub fn bytes(&self) -> u64 {
         self.bytes
+    }
+
+    /// The same with the solid.
+    pub(super) fn all_bytes(&self) -> u64 {
+        let body = match self.solid.body() {
+            crate::shape::Body::Mesh(m) => 24 * m.vertices.len() + 12 * m.faces.len(),
+            crate::shape::Body::Voxels(v) => v.cells.len(),
+        };
+        self.bytes + self.held + body as u64
+    }
+
+    /// By what fragments know the first parent: FNV-1a, 128 bits, of its body in the unit frame and
+    /// of that frame; of meshes that are open or cross themselves the grid too, by whose cells they
+    /// are cut. Made when first asked for.
+    pub fn hash(&self) -> Result<u128> {
+        if let Some(&hash) = self.hash.get() {
+            return Ok(hash);
+        }
+        let (solid, grid) = (&self.solid, self.solid.grid());
+        let mesh = matches!(solid.body(), crate::shape::Body::Mesh(_));
+        let by_cells = mesh && solid.unit_moments().relative_error != 0.0;
+        let cells = by_cells.then_some((grid.dims, grid.origin, grid.spacing));
+        let found = super::hash::hash(&(solid.frame(), solid.body(), cells))?;
+        Ok(*self.hash.get_or_init(|| found))
     }
 
     /// The rigid clump's time step for a unit spring, where there are spheres.

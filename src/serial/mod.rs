@@ -1,4 +1,4 @@
-//! Shapes and clumps as bytes, for another rank or a restart file.
+//! Shapes, clumps and fragments as bytes, for another rank or a restart file.
 //!
 //! A header of 24 bytes, all numbers little-endian: `MORULA` and two bytes that texts do not have;
 //! the version of the format, 16 bits; what it is, 16 bits; the CRC-32 of what follows; its length
@@ -7,9 +7,11 @@
 //! changed, of another kind or of another version are refused with a sentence.
 
 mod clump;
+mod fragment;
 mod shape;
 
 pub use clump::ClumpRecord;
+pub use fragment::{FragmentRecord, fragment_from_bytes, fragment_to_bytes};
 pub use shape::{shape_from_bytes, shape_to_bytes};
 
 use crate::error::{Error, Result};
@@ -27,6 +29,7 @@ const HEADER: usize = 24;
 pub(crate) enum Kind {
     Shape = 1,
     Clump = 2,
+    Fragment = 3,
 }
 
 impl Kind {
@@ -34,6 +37,7 @@ impl Kind {
         match number {
             1 => "a shape",
             2 => "a clump",
+            3 => "a fragment",
             _ => "something unknown",
         }
     }

@@ -1,5 +1,6 @@
 use super::*;
-use crate::generate::{GenerateOptions, generate};
+use crate::fragment::{self, Cut, CutOptions, Parent, ReclumpOptions, Region};
+use crate::generate::{GenerateOptions, HalfSpace, generate};
 use crate::math::{Sphere, Vec3};
 use crate::shape::{Body, ImportOptions, Layout, Primitive, Shape};
 use crate::solid::SolidOptions;
@@ -119,6 +120,124 @@ fn what_is_wrong_is_named() {
     bad.given[3] = -1.0;
     let e = ClumpRecord::from_bytes(&bad.to_bytes().unwrap()).unwrap_err().to_string();
     assert!(e.contains("sphere 0"), "{e}");
+}
+
+fn parent(shape: &Shape) -> Parent {
+    let run = Run::serial();
+    let resolution = crate::solid::Resolution::CellsLongest(32);
+    let options = SolidOptions { resolution, ..SolidOptions::default() };
+    let solid = Solid::new(shape, &options, &run).unwrap();
+    Parent::new(std::sync::Arc::new(solid), &[], &run).unwrap()
+}
+
+fn pieces(parent: &Parent, by: &Cut) -> Vec<(Region, Vec<Sphere>)> {
+    let run = Run::serial();
+    let found = fragment::cut(parent.solid(), by, &CutOptions::default(), &run).unwrap();
+    let options = ReclumpOptions { quality: false, ..ReclumpOptions::default() };
+    let spheres = |r: &Region| fragment::reclump(parent, r, &options, &run).unwrap().spheres;
+    found.regions.into_iter().map(|r| (r.clone(), spheres(&r))).collect()
+}
+
+/// Two ends of a ring between two planes: each has a mark.
+fn ring() -> (Parent, Vec<(Region, Vec<Sphere>)>) {
+    let torus = Primitive::Torus { major: 1.0, minor: 0.4 };
+    let shape = Shape::from_primitive(&torus, 24, &ImportOptions::default(), &Run::serial());
+    let parent = parent(&shape.unwrap());
+    let slab = |normal: Vec3| HalfSpace { normal, offset: 0.3 };
+    let found = pieces(&parent, &Cut::Within(vec![slab(Vec3::x()), slab(-Vec3::x())]));
+    (parent, found)
+}
+
+#[test]
+fn fragments_come_back_and_are_small() {
+    let run = Run::serial();
+    let stone = &shapes()[0];
+    let of_stone = parent(stone);
+    let many = pieces(&of_stone, &Cut::Seeded { count: 20 });
+    assert_eq!(many.len(), 20);
+    let (of_ring, ends) = ring();
+    assert!(ends.len() == 2 && ends.iter().all(|(r, _)| r.mark.is_some()));
+    for (parent, most, found) in [(&of_stone, 4096, many), (&of_ring, 16 << 10, ends)] {
+        for (region, spheres) in found {
+            let bytes = fragment_to_bytes(parent, &region, &spheres).unwrap();
+            assert!(bytes.len() <= most, "{} bytes, {} spheres", bytes.len(), spheres.len());
+            let back = fragment_from_bytes(parent, &bytes).unwrap();
+            assert_eq!((&back.region, &back.spheres), (&region, &spheres));
+            // It breaks as the one that it stands for.
+            let again = |r: &Region| {
+                let by = Cut::Seeded { count: 2 };
+                fragment::cut_region(parent.solid(), r, &by, &CutOptions::default(), &run).unwrap()
+            };
+            assert_eq!(again(&back.region), again(&region));
+        }
+    }
+}
+
+#[test]
+fn fragments_of_another_parent_are_refused() {
+    let (of_ring, ends) = ring();
+    let bytes = fragment_to_bytes(&of_ring, &ends[0].0, &ends[0].1).unwrap();
+    // The same again is the same parent, and with other spheres too.
+    let (again, _) = ring();
+    assert!(fragment_from_bytes(&again, &bytes).is_ok());
+    let spheres = [Sphere::new(Vec3::x(), 0.3)];
+    let with = Parent::new(of_ring.solid().clone(), &spheres, &Run::serial()).unwrap();
+    assert!(fragment_from_bytes(&with, &bytes).is_ok());
+    for other in shapes().iter().map(parent) {
+        let e = fragment_from_bytes(&other, &bytes).unwrap_err();
+        assert!(matches!(e, Error::InvalidArgument(_)) && e.to_string().contains("another parent"));
+    }
+    let e = fragment_from_bytes(&of_ring, &shape_to_bytes(&shapes()[0]).unwrap()).unwrap_err();
+    assert!(e.to_string().contains("a shape, not a fragment"), "{e}");
+    // Made on purpose.
+    let says = |change: &dyn Fn(&mut Region, &mut Vec<Sphere>), words: &str| {
+        let (mut region, mut spheres) = ends[0].clone();
+        change(&mut region, &mut spheres);
+        let bytes = fragment_to_bytes(&of_ring, &region, &spheres).unwrap();
+        let e = fragment_from_bytes(&of_ring, &bytes).unwrap_err().to_string();
+        assert!(e.contains(words), "{e}");
+    };
+    says(&|r, _| r.planes[1].normal.x = 0.5, "half-space 1");
+    says(&|r, _| r.planes[0].offset = f64::NAN, "half-space 0");
+    says(&|_, s| s[2].radius = 0.0, "sphere 2");
+    says(&|r, _| r.moments.volume = 9.0, "moments");
+    says(&|r, _| r.lo.x = f64::INFINITY, "box");
+    says(&|r, _| r.anchor = Some(1 << 40), "face or cell");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    /// With a checksum that is right again, too: no panic, whatever is done with the region.
+    #[test]
+    fn changed_bytes_of_fragments_do_no_harm(
+        changes in proptest::collection::vec((0usize..4000, any::<u8>()), 1..4),
+        mend: bool,
+    ) {
+        static RING: std::sync::OnceLock<(Parent, Vec<u8>)> = std::sync::OnceLock::new();
+        let (parent, bytes) = RING.get_or_init(|| {
+            let (parent, ends) = ring();
+            let bytes = fragment_to_bytes(&parent, &ends[0].0, &ends[0].1).unwrap();
+            (parent, bytes)
+        });
+        let (mut bytes, run) = (bytes.clone(), Run::serial());
+        let from = if mend { 40 } else { 0 };
+        for (at, to) in changes {
+            let at = from + at % (bytes.len() - from);
+            bytes[at] = to;
+        }
+        if mend {
+            let sum = crc32fast::hash(&bytes[24..]).to_le_bytes();
+            bytes[12..16].copy_from_slice(&sum);
+        }
+        if let Ok(found) = fragment_from_bytes(parent, &bytes) {
+            let by = Cut::Seeded { count: 2 };
+            let options = CutOptions::default();
+            let _ = fragment::cut_region(parent.solid(), &found.region, &by, &options, &run);
+            let _ = fragment::reclump(parent, &found.region, &ReclumpOptions::default(), &run);
+            let _ = fragment::shape(parent.solid(), &found.region, &run);
+        }
+    }
 }
 
 proptest! {

@@ -55,17 +55,17 @@ impl How {
         }
         if let Some(path) = &self.planes {
             let rows = rows(path, &[4], "nx,ny,nz,offset")?;
-            let plane = |r: &Vec<f64>| HalfSpace { normal: xyz(r), offset: r[3] };
-            return Ok(Cut::Planes(rows.iter().map(plane).collect()));
+            let plane = |r: &[f64]| HalfSpace { normal: xyz(r), offset: r[3] };
+            return Ok(Cut::Planes(rows.iter().map(|r| plane(r)).collect()));
         }
         let path = self.points.as_deref().unwrap_or_default();
         let rows = rows(path, &[3, 4], "x,y,z or x,y,z,weight")?;
-        let points = rows.iter().map(xyz).collect();
+        let points = rows.iter().map(|r| xyz(r)).collect();
         Ok(Cut::Points { points, weights: rows.iter().filter_map(|r| r.get(3).copied()).collect() })
     }
 }
 
-fn xyz(row: &Vec<f64>) -> Vec3 {
+fn xyz(row: &[f64]) -> Vec3 {
     Vec3::new(row[0], row[1], row[2])
 }
 

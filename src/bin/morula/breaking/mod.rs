@@ -293,7 +293,7 @@ fn summary(out: &mut dyn Write, folder: &str, object: &Value) -> std::io::Result
         writeln!(
             out,
             "{:10}  {:10.4e}  {:7.2} %  {:6.2} %",
-            f["n"],
+            f["n"].as_u64().unwrap_or(0),
             number(&f["mass"]),
             100.0 * number(&f["volume"]) / whole,
             100.0 * number(&f["coverage"]),
