@@ -57,6 +57,8 @@ struct Free {
   void operator()(morula_clump *p) const noexcept { morula_clump_free(p); }
   void operator()(morula_body *p) const noexcept { morula_body_free(p); }
   void operator()(morula_files *p) const noexcept { morula_files_free(p); }
+  void operator()(morula_parent *p) const noexcept { morula_parent_free(p); }
+  void operator()(morula_fragments *p) const noexcept { morula_fragments_free(p); }
 };
 template <class T>
 using Handle = std::unique_ptr<T, Free>;
@@ -140,6 +142,20 @@ std::vector<std::uint8_t> bytes(Write write) {
   check(write(std::size_t{0}, nullptr, &size));
   std::vector<std::uint8_t> all(size);
   check(write(size, all.data(), &size));
+  return all;
+}
+
+/// x, y, z, r of each.
+inline std::vector<double> flat(const std::vector<Sphere> &spheres) {
+  std::vector<double> xyzr;
+  for (const auto &s : spheres)
+    xyzr.insert(xyzr.end(), {s.center[0], s.center[1], s.center[2], s.radius});
+  return xyzr;
+}
+inline std::vector<Sphere> spheres(const std::vector<double> &xyzr) {
+  std::vector<Sphere> all;
+  for (std::size_t i = 0; i < xyzr.size(); i += 4)
+    all.push_back({{xyzr[i], xyzr[i + 1], xyzr[i + 2]}, xyzr[i + 3]});
   return all;
 }
 }  // namespace detail
@@ -321,6 +337,7 @@ class Shape {
   const morula_shape *get() const noexcept { return handle_.get(); }
 
  private:
+  friend class Fragments;
   explicit Shape(detail::Handle<morula_shape> handle) : handle_(std::move(handle)) {}
   template <class Make>
   static Shape make(const ImportOptions &options, Progress progress, Make call) {
@@ -718,6 +735,214 @@ class Body {
  private:
   explicit Body(detail::Handle<morula_body> handle) : handle_(std::move(handle)) {}
   detail::Handle<morula_body> handle_;
+};
+
+/// morula_break_options with the defaults.
+struct BreakOptions : morula_break_options {
+  BreakOptions() : morula_break_options(detail::defaults(morula_break_options_init)) {}
+};
+/// A body as a solver holds it; at first at rest at the origin, without mass.
+struct Held : morula_held {
+  Held() : morula_held(detail::defaults(morula_held_init)) {}
+  Held(const morula_held &held) : morula_held(held) {}
+};
+
+/// How a rigid body stands and moves in the world: the quaternion (w, x, y, z) is that of its body
+/// axes.
+struct Motion {
+  std::array<double, 3> position{};
+  std::array<double, 4> quaternion{1, 0, 0, 0};
+  std::array<double, 3> velocity{};
+  std::array<double, 3> angular_velocity{};
+};
+
+/// A particle that may break: its solid and the spheres of its clump.
+class Parent {
+ public:
+  Parent(const Solid &solid, const Clump &clump, std::int32_t threads = 1) {
+    morula_parent *raw = nullptr;
+    check(morula_parent_from_clump(solid.get(), clump.get(), threads, &raw));
+    handle_.reset(raw);
+  }
+  /// Spheres that were made elsewhere, in the frame of the solid; there may be none.
+  explicit Parent(const Solid &solid, const std::vector<Sphere> &spheres = {},
+                  std::int32_t threads = 1) {
+    morula_parent *raw = nullptr;
+    const auto xyzr = detail::flat(spheres);
+    check(morula_parent_from_solid(solid.get(), xyzr.data(), spheres.size(), threads, &raw));
+    handle_.reset(raw);
+  }
+
+  /// The whole body in its place in the world.
+  Held held(double density, const Motion &m, double scale = 1) const {
+    return detail::filled<morula_held>([&](morula_held *h) {
+      return morula_parent_held(get(), density, scale, m.position.data(), m.quaternion.data(),
+                                m.velocity.data(), m.angular_velocity.data(), h);
+    });
+  }
+  /// The whole body at rest where the shape has it.
+  Held held(double density, double scale = 1) const {
+    return detail::filled<morula_held>([&](morula_held *h) {
+      return morula_parent_held(get(), density, scale, nullptr, nullptr, nullptr, nullptr, h);
+    });
+  }
+  /// Bytes beside the solid.
+  std::uint64_t bytes() const {
+    std::uint64_t bytes = 0;
+    check(morula_parent_bytes(get(), &bytes));
+    return bytes;
+  }
+  const morula_parent *get() const noexcept { return handle_.get(); }
+
+ private:
+  detail::Handle<morula_parent> handle_;
+};
+
+/// Which spheres of what broke those of a fragment come from: those of sphere i are the pairs
+/// starts[i] up to starts[i + 1], the last excluded.
+struct ParentMap {
+  std::vector<std::uint32_t> starts, parents;
+  std::vector<double> shares;
+};
+
+/// The fragments of one break, and its dust.
+class Fragments {
+ public:
+  Fragments(const Parent &parent, const Held &held, const BreakOptions &options = {},
+            Progress progress = {})
+      : handle_(detail::made<morula_fragments>(
+            options, std::move(progress), [&](const auto &o, morula_fragments **out) {
+              return morula_parent_break(parent.get(), nullptr, 0, &held, &o, out);
+            })) {}
+  /// Fragment `index` of an earlier break breaks again.
+  Fragments(const Fragments &from, std::size_t index, const Held &held,
+            const BreakOptions &options = {}, Progress progress = {})
+      : handle_(detail::made<morula_fragments>(
+            options, std::move(progress), [&](const auto &o, morula_fragments **out) {
+              return morula_parent_break(nullptr, from.get(), index, &held, &o, out);
+            })) {}
+  /// New spheres for a shape that has changed, from the old ones.
+  static Fragments reclump_shape(const Solid &solid, const std::vector<Sphere> &old,
+                                 const Held &held, const BreakOptions &options = {},
+                                 Progress progress = {}) {
+    const auto xyzr = detail::flat(old);
+    return Fragments(detail::made<morula_fragments>(
+        options, std::move(progress), [&](const auto &o, morula_fragments **out) {
+          return morula_reclump_shape(solid.get(), xyzr.data(), old.size(), &held, &o, out);
+        }));
+  }
+  /// All breaks of one time step, which threads (those of the first options) share; throws for the
+  /// first that fails.
+  static std::vector<Fragments> of_parents(const std::vector<const Parent *> &parents,
+                                           const std::vector<Held> &held,
+                                           const std::vector<BreakOptions> &options) {
+    if (held.size() != parents.size() || options.size() != parents.size())
+      throw Error(MORULA_STATUS_INVALID_ARGUMENT, "a held body and options for each parent");
+    std::vector<const morula_parent *> handles;
+    for (const auto *parent : parents) handles.push_back(parent ? parent->get() : nullptr);
+    std::vector<morula_fragments *> raw(parents.size(), nullptr);
+    check(morula_parents_break(handles.data(), nullptr, nullptr, held.data(), options.data(),
+                               handles.size(), raw.data(), nullptr));
+    std::vector<detail::Handle<morula_fragments>> owned;
+    for (auto *fragments : raw) owned.emplace_back(fragments);
+    std::vector<Fragments> all;
+    for (auto &handle : owned) all.push_back(Fragments(std::move(handle)));
+    return all;
+  }
+
+  std::size_t size() const {
+    std::size_t n = 0;
+    check(morula_fragments_count(get(), &n));
+    return n;
+  }
+  /// What a solver takes of a fragment, and its quality.
+  morula_fragment operator[](std::size_t index) const {
+    return detail::filled<morula_fragment>(
+        [&](morula_fragment *f) { return morula_fragments_get(get(), index, f); });
+  }
+  /// What the pieces of the dust take over.
+  std::vector<morula_fragment> dust() const {
+    std::size_t n = 0;
+    check(morula_fragments_dust_count(get(), &n));
+    std::vector<morula_fragment> all;
+    for (std::size_t i = 0; i < n; ++i)
+      all.push_back(detail::filled<morula_fragment>(
+          [&](morula_fragment *f) { return morula_fragments_dust(get(), i, f); }));
+    return all;
+  }
+  morula_break_totals totals() const {
+    return detail::filled<morula_break_totals>(
+        [&](morula_break_totals *t) { return morula_fragments_totals(get(), t); });
+  }
+  /// A fragment as it was handed over, for it to break again.
+  Held held(std::size_t index) const {
+    return detail::filled<morula_held>([&](morula_held *h) {
+      return morula_fragments_held(get(), index, nullptr, nullptr, nullptr, nullptr, h);
+    });
+  }
+  /// A fragment as the solver holds it now, for it to break again.
+  Held held(std::size_t index, const Motion &m) const {
+    return detail::filled<morula_held>([&](morula_held *h) {
+      return morula_fragments_held(get(), index, m.position.data(), m.quaternion.data(),
+                                   m.velocity.data(), m.angular_velocity.data(), h);
+    });
+  }
+  /// The spheres in a frame, one of MORULA_FRAME_*.
+  std::vector<Sphere> spheres(std::size_t index, std::int32_t frame = MORULA_FRAME_INPUT) const {
+    std::vector<double> xyzr(4 * (*this)[index].sphere_count);
+    check(morula_fragments_copy_spheres(get(), index, frame, xyzr.size() / 4, xyzr.data()));
+    return detail::spheres(xyzr);
+  }
+  /// The same, grown by a part from 0 to 1 as far as the others, in that frame, leave room.
+  std::vector<Sphere> grown(std::size_t index, double part, const std::vector<Sphere> &others,
+                            double gap = 0, std::int32_t frame = MORULA_FRAME_INPUT) const {
+    const auto near = detail::flat(others);
+    std::vector<double> xyzr(4 * (*this)[index].sphere_count);
+    check(morula_fragments_grow(get(), index, part, near.data(), others.size(), gap, frame,
+                                xyzr.size() / 4, xyzr.data()));
+    return detail::spheres(xyzr);
+  }
+  /// The mass of each sphere.
+  std::vector<double> masses(std::size_t index) const {
+    std::vector<double> masses((*this)[index].sphere_count);
+    check(morula_fragments_copy_masses(get(), index, masses.size(), masses.data()));
+    return masses;
+  }
+  ParentMap map(std::size_t index) const {
+    const auto f = (*this)[index];
+    ParentMap map;
+    map.starts.resize(f.sphere_count + 1);
+    map.parents.resize(f.map_count);
+    map.shares.resize(f.map_count);
+    check(morula_fragments_copy_map(get(), index, map.starts.data(), map.parents.size(),
+                                    map.parents.data(), map.shares.data()));
+    return map;
+  }
+  /// The half-spaces that bound it: normal and offset each.
+  std::vector<std::array<double, 4>> half_spaces(std::size_t index) const {
+    std::vector<std::array<double, 4>> all((*this)[index].half_space_count);
+    check(morula_fragments_copy_half_spaces(get(), index, all.size(),
+                                            all.empty() ? nullptr : all[0].data()));
+    return all;
+  }
+  /// The surface of a fragment.
+  Shape shape(std::size_t index) const {
+    morula_shape *raw = nullptr;
+    check(morula_fragments_shape(get(), index, &raw));
+    return Shape(detail::Handle<morula_shape>(raw));
+  }
+  std::vector<std::string> notes() const {
+    return detail::texts(
+        [&](std::size_t *n) { return morula_fragments_note_count(get(), n); },
+        [&](std::size_t i, std::size_t capacity, char *to, std::size_t *length) {
+          return morula_fragments_copy_note(get(), i, capacity, to, length);
+        });
+  }
+  const morula_fragments *get() const noexcept { return handle_.get(); }
+
+ private:
+  explicit Fragments(detail::Handle<morula_fragments> handle) : handle_(std::move(handle)) {}
+  detail::Handle<morula_fragments> handle_;
 };
 
 /// Rotations (w, x, y, z) drawn evenly from all: the same for the same seed.

@@ -446,8 +446,8 @@ fn wrap(parent: Arc<Parent>, held: &Held, mut found: Shattered) -> Result<morula
 /// and `parent` is its parent or NULL; `held` is the body as the solver holds it; `options` may be
 /// NULL for the defaults.
 /// Returns: MORULA_STATUS_OK, also when the deadline passed: then the spheres are coarse;
-/// NULL_POINTER; INVALID_ARGUMENT (an option; the held body; a fragment of another parent);
-/// STRUCT_SIZE; NOT_FINITE (a plane, a point, the held body); INDEX_OUT_OF_RANGE; NO_SPHERES (no
+/// NULL_POINTER; INVALID_ARGUMENT (an option, a plane; the held body; a fragment of another parent);
+/// STRUCT_SIZE; NOT_FINITE (a point, a wall, the held body); INDEX_OUT_OF_RANGE; NO_SPHERES (no
 /// piece holds one); ZERO_VOLUME; EMPTY (nothing is left); TOO_LARGE; MEMORY_LIMIT; CANCELLED;
 /// UNSUPPORTED; OUT_OF_MEMORY; INTERNAL.
 /// Ownership: all inputs stay the caller's and may be freed at once; free *fragments with
