@@ -13,7 +13,7 @@ use crate::shape::Voxels;
 use crate::solid::moments::Sums;
 
 /// As near to a plane as this in the unit frame counts as on it.
-const ON: f64 = 1e-14;
+pub(super) const ON: f64 = 1e-14;
 /// Share of a cell, or of the face between two, below which nothing is left.
 const NOTHING: f64 = 1e-12;
 /// No node.

@@ -89,3 +89,94 @@ fn marks_of_cells_refuse_what_is_in_doubt() {
         }
     }
 }
+
+/// Six times the volume of a surface, and whether each edge has as many faces one way as the other.
+fn six_volumes(mesh: &crate::shape::Mesh) -> (f64, bool) {
+    let mut edges = std::collections::BTreeMap::<[u32; 2], i32>::new();
+    let mut sum = 0.0;
+    for (i, f) in mesh.faces.iter().enumerate() {
+        let [a, b, c] = mesh.corners(i);
+        sum += a.cross(&b).dot(&c);
+        for k in 0..3 {
+            let (v, w) = (f[k], f[(k + 1) % 3]);
+            *edges.entry([v.min(w), v.max(w)]).or_default() += if v < w { 1 } else { -1 };
+        }
+    }
+    (sum, edges.values().all(|n| *n == 0))
+}
+
+#[test]
+fn surfaces_of_cells_hold_what_the_moments_say() {
+    let run = Run::serial();
+    // A ring with arms, cells that touch at edges alone among them; edges of three lengths.
+    let dims = [17, 15, 12];
+    let cells: Vec<u8> = (0..dims[0] * dims[1] * dims[2])
+        .map(|i| {
+            let at = [i % 17, i / 17 % 15, i / 255].map(|x| x as f64);
+            let r = ((at[0] - 8.0).powi(2) + (at[1] - 7.0).powi(2)).sqrt();
+            u8::from((3.0..7.6).contains(&r) && (i % 7 != 0 || at[2] < 5.0))
+        })
+        .collect();
+    let layout = Layout { dims, spacing: [0.2, 0.3, 0.25], origin: [5.0, -3.0, 1e3] };
+    let import = ImportOptions { bodies: crate::shape::Bodies::All, ..ImportOptions::default() };
+    let body = Shape::from_mask(&cells, &layout, &import, &run).unwrap();
+    let solid = Solid::new(&body, &SolidOptions::default(), &run).unwrap();
+    let slab = |x: f64, normal: Vec3| HalfSpace {
+        normal,
+        offset: normal.dot(&Vec3::new(x, -0.8, 1001.5)),
+    };
+    let slanted = vec![
+        slab(6.7, Vec3::new(1.0, 0.2, 0.3)),
+        slab(6.5, Vec3::new(-0.1, 1.0, 0.4)),
+        slab(7.0, Vec3::new(0.3, -0.7, 1.0)),
+    ];
+    // Along faces of cells, too.
+    let straight = vec![
+        HalfSpace { normal: Vec3::x(), offset: 5.0 + 8.0 * 0.2 },
+        HalfSpace { normal: Vec3::z(), offset: 1e3 + 6.1 * 0.25 },
+    ];
+    let cuts = [
+        Cut::Planes(slanted),
+        Cut::Planes(straight),
+        Cut::Within(vec![slab(7.2, Vec3::x()), slab(6.2, -Vec3::x())]),
+        Cut::Seeded { count: 9 },
+    ];
+    let mut open = Vec::new();
+    for by in cuts {
+        let f = cut(&solid, &by, &CutOptions { least_volume: 1e-6 }, &run).unwrap();
+        assert!(f.regions.len() > 1, "{by:?}");
+        for (i, r) in f.regions.iter().enumerate() {
+            let own = shape(&solid, r, &run).unwrap();
+            let Body::Mesh(mesh) = &*own.body else { panic!("no mesh") };
+            let (six, closed) = six_volumes(mesh);
+            let volume = six / 6.0 * own.frame.scale.powi(3);
+            let told = r.moments(solid.frame()).volume;
+            assert!((volume / told - 1.0).abs() < 1e-9, "{by:?} {i}: {volume} {told}");
+            let Body::Voxels(v) = solid.body() else { panic!("no voxels") };
+            let skin = Blocks::of(v, solid.memory_limit()).skin(r).unwrap();
+            let raw =
+                crate::shape::Mesh { vertices: skin.vertices, faces: skin.faces, clean: false };
+            let (six, whole) = six_volumes(&raw);
+            let off = six / 6.0 - r.moments.volume;
+            assert!(off.abs() < 1e-14 + 1e-12 * r.moments.volume, "{by:?} {i}: {off}");
+            open.push((format!("{by:?} {i}"), whole, closed, own.report.notes));
+        }
+    }
+    open.retain(|(_, whole, closed, _)| !(*whole && *closed));
+    assert!(open.is_empty(), "{open:#?}");
+    // The fragment of a fragment.
+    let halves = Cut::Planes(vec![slab(6.7, Vec3::new(0.0, 1.0, 0.3))]);
+    let f = cut(&solid, &Cut::Seeded { count: 3 }, &CutOptions::default(), &run).unwrap();
+    let again = cut_region(&solid, &f.regions[0], &halves, &CutOptions::default(), &run).unwrap();
+    let sum: f64 = again
+        .regions
+        .iter()
+        .map(|r| {
+            let own = shape(&solid, r, &run).unwrap();
+            let Body::Mesh(mesh) = &*own.body else { panic!("no mesh") };
+            six_volumes(mesh).0 / 6.0 * own.frame.scale.powi(3)
+        })
+        .sum();
+    let whole = f.regions[0].moments(solid.frame()).volume;
+    assert!((sum / whole - 1.0).abs() < 1e-9, "{sum} {whole}");
+}
