@@ -11,7 +11,7 @@ fn vector(v: &Value) -> [f64; 3] {
 /// Broken into a folder, with what `fragments.json` holds.
 fn breaks(to: &Path, input: &str, more: &[&str]) -> Value {
     let words = ["break", input, "-N", "20", "-n", "6", "--cells", "32", "-o", text(to)];
-    let words: Vec<&str> = match input.ends_with(".npy") {
+    let words: Vec<&str> = match input.ends_with(".raw") {
         true => words.iter().filter(|w| !["--cells", "32"].contains(*w)).copied().collect(),
         false => words.to_vec(),
     };
@@ -121,6 +121,24 @@ fn cuts_are_read_from_files_and_options() {
         [printed, std::fs::read_to_string(out.join("fragments.json")).unwrap()]
             .map(|text| serde_json::from_str(&text).unwrap());
     assert_eq!(a, b);
+}
+
+#[test]
+fn voxels_break_into_meshes() {
+    let folder = folder("break-voxels");
+    let raw = folder.join("ball.raw");
+    let far = |i: usize| (i as f64 - 9.5).powi(2);
+    let solid = |i: usize| far(i % 20) + far(i / 20 % 20) + far(i / 400) < 90.0;
+    std::fs::write(&raw, (0..8000).map(|i| u8::from(solid(i))).collect::<Vec<u8>>()).unwrap();
+    let out = folder.join("out");
+    let v = breaks(&out, text(&raw), &["--raw", "20x20x20", "--voronoi", "3", "--size", "300x200"]);
+    for f in v["fragments"].as_array().unwrap() {
+        let stl = out.join(f["mesh"].as_str().unwrap());
+        let info: Value = serde_json::from_str(&succeeds(&["info", text(&stl), "--json"])).unwrap();
+        let (volume, told) = (info["volume"].as_f64().unwrap(), f["volume"].as_f64().unwrap());
+        assert!((volume / told - 1.0).abs() < 1e-4, "{volume} {told}");
+    }
+    assert_eq!(v["notes"].as_array().unwrap().len(), 0);
 }
 
 #[test]
