@@ -16,9 +16,9 @@ const LEAST: f32 = 0.01;
 const LONGER: f32 = 1.5;
 const SHORTER: f32 = 0.75;
 /// Part of the steps that end where the ball is greatest.
-const GROWN: f32 = 0.5;
+const GROWN: f32 = 0.7;
 /// How far the gathered points reach beyond the ball, of its radius.
-const BEYOND: f32 = 0.35;
+const BEYOND: f32 = 0.25;
 
 /// What a visit costs.
 #[derive(Debug, Clone, Copy)]
@@ -83,6 +83,7 @@ impl<'a> Climb<'a> {
             *j != i && o.apart(&about.center) < reach * reach
         });
         self.others.extend(others.map(|(_, o)| *o));
+        let (mut stage, mut filled) = ([[0.0f32; 8]; 4], 0);
         for (group, chunks) in self.cloud.groups.iter().zip(self.cloud.chunks.chunks(8)) {
             let (mut met, _) = group.meets(about, 0.0);
             if met == 0 {
@@ -111,11 +112,23 @@ impl<'a> Climb<'a> {
                     for o in &self.here {
                         covered = covered.fast_max(o.cover(p[0], p[1], p[2]));
                     }
-                    if covered.simd_lt(f32x8::splat(1.0)).to_bitmask() != 0 {
-                        self.points.push([p[0], p[1], p[2], covered]);
+                    let kept = near & covered.simd_lt(f32x8::splat(1.0));
+                    for lane in bits(kept.to_bitmask()) {
+                        let from = [p[0], p[1], p[2], covered].map(|v| v.as_array()[lane & 7]);
+                        (0..4).for_each(|a| stage[a][filled] = from[a]);
+                        filled += 1;
+                        if filled == 8 {
+                            self.points.push(stage.map(f32x8::new));
+                            filled = 0;
+                        }
                     }
                 }
             }
+        }
+        if filled > 0 {
+            // The others are covered.
+            stage[3][filled..].fill(1.0);
+            self.points.push(stage.map(f32x8::new));
         }
     }
 
@@ -125,7 +138,7 @@ impl<'a> Climb<'a> {
         let mut sum = f32x8::splat(0.0);
         let ball = Soft::new(ball, self.soft);
         for [x, y, z, covered] in &self.points {
-            let own = ball.cover(*x, *y, *z);
+            let own = ball.raw(*x, *y, *z).fast_min(f32x8::splat(1.0));
             sum += (own - *covered).fast_max(f32x8::splat(0.0));
         }
         sum.reduce_add()
@@ -205,9 +218,13 @@ impl Soft {
     /// How much it covers of points: 1 within, 0 without, in between over the border's width.
     #[inline(always)]
     fn cover(&self, x: f32x8, y: f32x8, z: f32x8) -> f32x8 {
+        self.raw(x, y, z).fast_max(f32x8::splat(0.0)).fast_min(f32x8::splat(1.0))
+    }
+
+    /// The same without bounds.
+    #[inline(always)]
+    fn raw(&self, x: f32x8, y: f32x8, z: f32x8) -> f32x8 {
         let (x, y, z) = (x - self.center[0], y - self.center[1], z - self.center[2]);
-        let d2 = x * x + y * y + z * z;
-        let cover = f32x8::splat(self.from) - d2 * self.by;
-        cover.fast_max(f32x8::splat(0.0)).fast_min(f32x8::splat(1.0))
+        f32x8::splat(self.from) - (x * x + y * y + z * z) * self.by
     }
 }

@@ -77,6 +77,10 @@ impl Chunk {
         Chunk { points: std::array::from_fn(|k| std::array::from_fn(|a| lanes(k, a))) }
     }
 
+    fn point(&self, i: usize) -> [f32; 3] {
+        self.points[i >> 3 & 7].map(|lanes| lanes.as_array()[i & 7])
+    }
+
     #[inline]
     fn held(&self, ball: &Ball) -> u64 {
         let r2 = f32x8::splat(ball.radius * ball.radius);
@@ -98,16 +102,21 @@ pub(super) struct Cloud {
     pub groups: Vec<Group>,
     /// Points that no chosen ball holds.
     left: Vec<u64>,
+    len: usize,
 }
 
 impl Cloud {
     /// Of points within a box about the origin, by half its edges.
     pub(super) fn new(points: &[[f32; 3]], half: [f32; 3]) -> Result<Cloud> {
-        let sorted = sorted(points, half)?;
+        Cloud::of_sorted(&sorted(points, half)?)
+    }
+
+    fn of_sorted(sorted: &[[f32; 3]]) -> Result<Cloud> {
         let mut cloud = Cloud {
             chunks: reserve("points", sorted.len().div_ceil(64))?,
             groups: reserve("points", sorted.len().div_ceil(512))?,
             left: reserve("points", sorted.len().div_ceil(64))?,
+            len: sorted.len(),
         };
         for some in sorted.chunks(64) {
             cloud.left.push(u64::MAX >> (64 - some.len()));
@@ -120,6 +129,22 @@ impl Cloud {
             cloud.groups.push(Group::of(&balls[..count]));
         }
         Ok(cloud)
+    }
+
+    /// Those left alone, when fewer than half are.
+    fn rest(&self) -> Result<Option<Cloud>> {
+        let count = self.left.iter().map(|l| l.count_ones() as usize).sum::<usize>();
+        if 2 * count >= self.len {
+            return Ok(None);
+        }
+        let mut rest = reserve("points", count)?;
+        for (chunk, left) in self.chunks.iter().zip(&self.left) {
+            let halves = [(0, *left as u32), (32, (left >> 32) as u32)];
+            for (from, half) in halves {
+                rest.extend(bits(half).map(|k| chunk.point(from + k)));
+            }
+        }
+        Cloud::of_sorted(&rest).map(Some)
     }
 
     /// Points that the ball holds and no chosen one.
@@ -185,17 +210,62 @@ pub(super) fn choose(
     let mut heap = reserve("candidates", balls.len())?;
     heap.extend(balls.iter().enumerate().map(|(i, b)| (bound(b), Reverse(i), usize::MAX)));
     let mut heap = BinaryHeap::from(heap);
-    let mut chosen = Vec::new();
+    let mut chosen: Vec<usize> = Vec::new();
+    // Points that no chosen ball holds, when they are few.
+    let mut rest: Option<Cloud> = None;
     while chosen.len() < n
         && let Some((gain, Reverse(i), counted)) = heap.pop()
     {
         let Some(ball) = balls.get(i).filter(|_| gain > 0) else { break };
-        if counted == chosen.len() {
-            cloud.choose(ball);
+        let left = rest.as_mut().unwrap_or(&mut *cloud);
+        // Those chosen since it was counted may not touch it.
+        let since = chosen.get(counted..).map(|since| {
+            since.iter().filter_map(|&j| balls.get(j)).any(|other| {
+                let touch = ball.radius + other.radius;
+                other.apart(&ball.center) < touch * touch
+            })
+        });
+        if since == Some(false) {
+            left.choose(ball);
+            let fewer = left.rest()?;
+            if fewer.is_some() {
+                rest = fewer;
+            }
             push("spheres", &mut chosen, i)?;
         } else {
-            heap.push((cloud.gain(ball), Reverse(i), chosen.len()));
+            heap.push((left.gain(ball), Reverse(i), chosen.len()));
         }
     }
     Ok(chosen)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::spread::Random;
+    use super::*;
+
+    #[test]
+    fn the_lazy_choice_is_that_of_counting_every_ball_each_time() {
+        let mut random = Random::new(4);
+        let mut place = |by: f32| [0; 3].map(|_| by * (2.0 * random.unit() - 1.0));
+        let points: Vec<[f32; 3]> = (0..1500).map(|_| place(1.0)).collect();
+        let radii = (0..300).map(|k| 0.05 + 0.001 * k as f32);
+        let balls: Vec<Ball> = radii.map(|radius| Ball { center: place(0.9), radius }).collect();
+        let mut cloud = Cloud::new(&points, [1.0; 3]).unwrap();
+        let chosen = choose(&mut cloud, &balls, 60, |_| u32::MAX).unwrap();
+        let mut left = points;
+        let mut oracle = Vec::new();
+        while oracle.len() < 60 {
+            let holds = |b: &Ball, p: &[f32; 3]| b.apart(p) <= b.radius * b.radius;
+            let gain = |b: &Ball| left.iter().filter(|p| holds(b, p)).count();
+            let best = (0..balls.len()).rev().max_by_key(|&i| gain(&balls[i])).unwrap();
+            if gain(&balls[best]) == 0 {
+                break;
+            }
+            left.retain(|p| !holds(&balls[best], p));
+            oracle.push(best);
+        }
+        assert_eq!(chosen, oracle);
+        assert!(left.len() < 700, "few enough to be sorted anew: {}", left.len());
+    }
 }

@@ -214,3 +214,62 @@ impl<'a> Lookup<'a> {
         (least as f32 * self.unit, [x, y, z])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::spread::Random;
+    use super::*;
+
+    #[test]
+    fn the_least_of_eight_planes_is_found() {
+        let dims = [7, 6, 5];
+        let spacing = Vec3::new(0.1, 0.13, 0.08);
+        let grid = Grid { dims, spacing, origin: Vec3::new(3.0, 2.0, 1.0) };
+        let mut random = Random::new(2);
+        let mut unit = || f64::from(random.unit());
+        let known: Vec<(f64, Vec3)> = (0..210)
+            .map(|_| {
+                let way = Vec3::new(unit() - 0.5, unit() - 0.5, unit() - 0.5).normalize();
+                (unit() * 0.7 - 0.2, way)
+            })
+            .collect();
+        let mut field = Field { cells: Vec::new(), unit: 0.8 / DEEPEST };
+        field.cells = known.iter().map(|(depth, way)| field.cell(*depth, *way)).collect();
+        let middle = Vec3::new(3.3, 2.4, 1.2);
+        let lookup = Lookup::new(&grid, &field, &middle);
+        let (mut ways, mut deep) = (0, 0);
+        for _ in 0..3000 {
+            let at = Vec3::new(unit() * 6.0, unit() * 5.0, unit() * 4.0);
+            let p = grid.center(0, 0, 0) + at.component_mul(&spacing);
+            let planes = (0..8).map(|k| {
+                let corner = [0, 1, 2].map(|a| (at[a] as usize).min(dims[a] - 2) + (k >> a & 1));
+                let (depth, way) = known[corner[0] + 7 * (corner[1] + 6 * corner[2])];
+                (depth + way.dot(&(p - grid.center(corner[0], corner[1], corner[2]))), way)
+            });
+            let mut planes: Vec<(f64, Vec3)> = planes.collect();
+            planes.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let local = p - middle;
+            let local = [local.x as f32, local.y as f32, local.z as f32];
+            let (depth, way) = lookup.at(&local);
+            assert!((f64::from(depth) - planes[0].0).abs() < 2e-4, "{depth} {:?}", planes[0]);
+            if planes[1].0 - planes[0].0 > 1e-3 {
+                ways += 1;
+                assert!((Vec3::from(way.map(f64::from)) - planes[0].1).norm() < 1e-3);
+            }
+        }
+        // The depth below a plane is told at a glance as by the planes themselves.
+        let flat = |at: usize| field.cell(center(&grid, at).x - 3.35, Vec3::x());
+        let flat = Field { cells: (0..210).map(flat).collect(), unit: field.unit };
+        let lookup = Lookup::new(&grid, &flat, &middle);
+        for _ in 0..3000 {
+            let x = 0.7 * unit() - 0.3;
+            let p = [x as f32, 0.2 * unit() as f32, 0.1 * unit() as f32];
+            let depth = x.clamp(-0.25, 0.35) - 0.05;
+            if (depth - 0.1).abs() > 1e-3 {
+                assert_eq!(lookup.deeper(&p, 0.1), depth > 0.1, "{x}");
+                deep += usize::from(depth > 0.1);
+            }
+        }
+        assert!(ways > 2500 && deep > 500, "{ways} {deep}");
+    }
+}

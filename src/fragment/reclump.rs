@@ -90,11 +90,13 @@ struct Plan {
 
 impl Plan {
     fn of(n: usize) -> Plan {
+        // Few balls have far to go, many are placed well by the greedy cover.
+        let (sweeps, tries) = if n <= 20 { (3, 12) } else { (2, 14) };
         Plan {
-            points: (60 * n).clamp(1500, 12_000),
-            candidates: (20 * n).clamp(300, 4000),
-            sweeps: 3,
-            tries: 12,
+            points: (1000 + 30 * n).max(50 * n).min(12_000),
+            candidates: (24 * n).clamp(300, 4000),
+            sweeps,
+            tries,
         }
     }
 
