@@ -59,6 +59,10 @@ contains
     type(morula_overlap) :: overlap
     type(morula_surface) :: surface
     type(morula_counters) :: counters
+    type(morula_break_options) :: break_options
+    type(morula_held) :: held
+    type(morula_fragment) :: fragment
+    type(morula_break_totals) :: break_totals
     type(morula_mass_options) :: mass_options
     type(morula_masses) :: masses
     type(morula_contact_options) :: contact_options
@@ -78,7 +82,11 @@ contains
     call same_size(MORULA_STRUCT_CONTACT_OPTIONS, c_sizeof(contact_options))
     call same_size(MORULA_STRUCT_TIMESTEP, c_sizeof(timestep))
     call same_size(MORULA_STRUCT_EXPORT_OPTIONS, c_sizeof(export_options))
-    call check(morula_sizeof(MORULA_STRUCT_EXPORT_OPTIONS + 1) == 0, 'every struct is compared')
+    call same_size(MORULA_STRUCT_BREAK_OPTIONS, c_sizeof(break_options))
+    call same_size(MORULA_STRUCT_HELD, c_sizeof(held))
+    call same_size(MORULA_STRUCT_FRAGMENT, c_sizeof(fragment))
+    call same_size(MORULA_STRUCT_BREAK_TOTALS, c_sizeof(break_totals))
+    call check(morula_sizeof(MORULA_STRUCT_BREAK_TOTALS + 1) == 0, 'every struct is compared')
   end subroutine sizes
 
   subroutine same_size(which, ours)
