@@ -4,40 +4,14 @@
 
 mod common;
 
+use common::fragments::{lack, made, pieces, plane};
 use common::{Arrays, cuboid, join, solid_of, solid_of_mesh, sphere};
-use morula::fragment::{Cut, CutOptions, Fragments, cut, cut_region, label_solids};
+use morula::fragment::{Cut, CutOptions, cut, cut_region, label_solids};
 use morula::generate::HalfSpace;
-use morula::math::{Moments, Vec3};
+use morula::math::Vec3;
 use morula::shape::{ImportOptions, Layout, Shape};
 use morula::{Run, Solid};
 use std::f64::consts::PI;
-
-fn plane(normal: [f64; 3], offset: f64) -> HalfSpace {
-    HalfSpace { normal: Vec3::from(normal), offset }
-}
-
-fn made(solid: &Solid, by: &Cut) -> Fragments {
-    cut(solid, by, &CutOptions::default(), &Run::serial()).unwrap()
-}
-
-fn pieces(solid: &Solid, f: &Fragments) -> Vec<Moments> {
-    let regions = f.regions.iter().map(|r| r.moments(solid.frame()));
-    regions.chain(f.dust.iter().map(|d| d.moments)).collect()
-}
-
-/// By how much the moments of parts, together, differ from those of the whole.
-fn lack(whole: &Moments, parts: &[Moments]) -> f64 {
-    let volume: f64 = parts.iter().map(|p| p.volume).sum();
-    let first = parts.iter().map(|p| (p.centroid - whole.centroid) * p.volume).sum::<Vec3>();
-    let inertia = parts.iter().fold(nalgebra::Matrix3::zeros(), |sum, p| {
-        sum + p.inertia.shifted(p.volume, &(p.centroid - whole.centroid)).matrix()
-    });
-    let most = whole.inertia.matrix().amax();
-    ((volume - whole.volume) / whole.volume)
-        .abs()
-        .max(first.norm() / whole.volume.powf(4.0 / 3.0))
-        .max((inertia - whole.inertia.matrix()).amax() / most)
-}
 
 /// Cells of 1/8 for which `f` holds of their middles, in a cube of `n` cells.
 fn voxels(n: usize, f: impl Fn([f64; 3]) -> bool) -> Solid {

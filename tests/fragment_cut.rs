@@ -4,6 +4,7 @@
 
 mod common;
 
+use common::fragments::{lack, made, pieces, plane};
 use common::{add, cube, cuboid, particle, solid_of_mesh, sphere, turned, winding};
 use morula::fragment::{Cut, CutOptions, Fragments, cut, cut_region, shape};
 use morula::generate::HalfSpace;
@@ -12,34 +13,6 @@ use morula::solid::{Resolution, SolidOptions};
 use morula::{Error, Run, Solid};
 use proptest::prelude::*;
 use std::f64::consts::PI;
-
-fn plane(normal: [f64; 3], offset: f64) -> HalfSpace {
-    HalfSpace { normal: Vec3::from(normal), offset }
-}
-
-fn made(solid: &Solid, by: &Cut) -> Fragments {
-    cut(solid, by, &CutOptions::default(), &Run::serial()).unwrap()
-}
-
-/// Moments of all pieces.
-fn pieces(solid: &Solid, f: &Fragments) -> Vec<Moments> {
-    let regions = f.regions.iter().map(|r| r.moments(solid.frame()));
-    regions.chain(f.dust.iter().map(|d| d.moments)).collect()
-}
-
-/// By how much the moments of parts, together, differ from those of the whole.
-fn lack(whole: &Moments, parts: &[Moments]) -> f64 {
-    let volume: f64 = parts.iter().map(|p| p.volume).sum();
-    let first = parts.iter().map(|p| (p.centroid - whole.centroid) * p.volume).sum::<Vec3>();
-    let inertia = parts.iter().fold(nalgebra::Matrix3::zeros(), |sum, p| {
-        sum + p.inertia.shifted(p.volume, &(p.centroid - whole.centroid)).matrix()
-    });
-    let most = whole.inertia.matrix().amax();
-    ((volume - whole.volume) / whole.volume)
-        .abs()
-        .max(first.norm() / whole.volume.powf(4.0 / 3.0))
-        .max((inertia - whole.inertia.matrix()).amax() / most)
-}
 
 /// How far a region's moments are from those of its own surface, taken in anew.
 fn recomputed(solid: &Solid, f: &Fragments, i: usize) -> f64 {

@@ -2,7 +2,7 @@
 //! holes in them.
 
 use crate::error::{Result, collected, filled, push, reserve};
-use crate::math::Vec3;
+use crate::math::{Vec3, turn};
 
 /// An outline and the holes in it, as vertices: counter-clockwise seen from outside, holes
 /// clockwise.
@@ -48,12 +48,6 @@ impl Flat<'_> {
         let p = &self.vertices[v as usize];
         [p[self.axes[0]], p[self.axes[1]]]
     }
-}
-
-/// Twice the area of a triangle, positive when it turns left.
-#[inline]
-pub(super) fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 /// The caps of directed edges in a plane with the given outward normal; as many edges end in each

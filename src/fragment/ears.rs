@@ -3,14 +3,12 @@
 //! Whatever loops there are, the triangles that are made of them have them as their border: a
 //! surface stays closed even where rounding makes an outline cross itself.
 
-use super::cap::{Cap, Flat, turn};
-use crate::error::{Result, collected, filled, push, reserve};
-use crate::math::Vec3;
+use super::cap::{Cap, Flat};
+use crate::error::{Result, collected, push, reserve};
+use crate::math::{Ears, Next, Vec3, turn};
 
 /// More corners than this are cut as a fan.
 const MOST_EARS: usize = 1 << 15;
-/// A corner turns left when the triangle there has more than this area, in units of the size.
-const LEFT: f64 = 1e-14;
 
 /// Cuts a cap into triangles.
 pub(super) fn triangulate(
@@ -95,15 +93,15 @@ fn opens(before: [f64; 2], at: [f64; 2], after: [f64; 2], p: [f64; 2]) -> bool {
 /// Cuts a ring into triangles, ear by ear; what has none becomes a fan.
 fn ears(ring: &[u32], flat: &Flat, out: &mut Vec<[u32; 3]>) -> Result<()> {
     let n = ring.len();
-    let mut left: Vec<usize> = Vec::new();
+    let mut left: Vec<usize> = reserve("corners of a cap", n)?;
     if n > 3 && n <= MOST_EARS {
-        let mut ears = Ears::new(ring, flat)?;
+        let mut ears = Ears::new(unit(ring, flat)?, Next::Farther)?;
         while let Some(t) = ears.cut() {
             push("faces of a cap", out, t.map(|i| ring[i]))?;
         }
-        ears.left(&mut left)?;
+        left.extend(ears.left());
     } else {
-        left = collected("corners of a cap", 0..n)?;
+        left.extend(0..n);
     }
     if let [a, rest @ ..] = left.as_slice() {
         for w in rest.windows(2) {
@@ -113,125 +111,14 @@ fn ears(ring: &[u32], flat: &Flat, out: &mut Vec<[u32; 3]>) -> Result<()> {
     Ok(())
 }
 
-/// A ring whose ears are cut off. What is an ear changes only beside the cut, and only corners that
-/// do not turn left can lie in one.
-struct Ears {
-    at: Vec<[f64; 2]>,
-    before: Vec<usize>,
-    after: Vec<usize>,
-    count: usize,
-    ear: Vec<bool>,
-    hollow: Vec<usize>,
-    is_hollow: Vec<bool>,
-    next: usize,
-}
-
-impl Ears {
-    fn new(ring: &[u32], flat: &Flat) -> Result<Ears> {
-        let n = ring.len();
-        let first = flat.at(ring[0]);
-        let size = ring
-            .iter()
-            .map(|&v| flat.at(v))
-            .fold(0.0f64, |m, p| m.max((p[0] - first[0]).abs()).max((p[1] - first[1]).abs()));
-        let scale = if size > 1e-150 { 1.0 / size } else { 1.0 };
-        let unit = |&v: &u32| {
-            let p = flat.at(v);
-            [(p[0] - first[0]) * scale, (p[1] - first[1]) * scale]
-        };
-        let mut ears = Ears {
-            at: collected("corners of a cap", ring.iter().map(unit))?,
-            before: collected("corners of a cap", (0..n).map(|i| (i + n - 1) % n))?,
-            after: collected("corners of a cap", (0..n).map(|i| (i + 1) % n))?,
-            count: n,
-            ear: filled("corners of a cap", n, false)?,
-            hollow: reserve("corners of a cap", n)?,
-            is_hollow: filled("corners of a cap", n, false)?,
-            next: 0,
-        };
-        (0..n).for_each(|i| ears.judge_turn(i));
-        (0..n).for_each(|i| ears.judge_ear(i));
-        Ok(ears)
-    }
-
-    fn corner(&self, b: usize) -> [[f64; 2]; 3] {
-        [self.before[b], b, self.after[b]].map(|i| self.at[i])
-    }
-
-    fn judge_turn(&mut self, b: usize) {
-        let [p, q, r] = self.corner(b);
-        let hollow = turn(p, q, r) <= LEFT;
-        if hollow && !self.is_hollow[b] {
-            self.hollow.push(b);
-        }
-        self.is_hollow[b] = hollow;
-    }
-
-    fn judge_ear(&mut self, b: usize) {
-        self.ear[b] = false;
-        if self.is_hollow[b] {
-            return;
-        }
-        let [p, q, r] = self.corner(b);
-        let lo = [0, 1].map(|k| p[k].min(q[k]).min(r[k]));
-        let hi = [0, 1].map(|k| p[k].max(q[k]).max(r[k]));
-        self.ear[b] = self.hollow.iter().all(|&i| {
-            let s = self.at[i];
-            s[0] < lo[0]
-                || s[0] > hi[0]
-                || s[1] < lo[1]
-                || s[1] > hi[1]
-                || !self.is_hollow[i]
-                // Corners at one place, as at the ends of a bridge, do not count.
-                || s == p
-                || s == q
-                || s == r
-                || turn(p, q, s) < 0.0
-                || turn(q, r, s) < 0.0
-                || turn(r, p, s) < 0.0
-        });
-    }
-
-    /// Cuts an ear off; `None` at the last triangle, or where there is no ear.
-    fn cut(&mut self) -> Option<[usize; 3]> {
-        if self.count <= 3 {
-            return None;
-        }
-        let mut b = self.next;
-        for _ in 0..self.count {
-            if self.ear[b] {
-                break;
-            }
-            b = self.after[b];
-        }
-        if !self.ear[b] {
-            return None;
-        }
-        let (a, c) = (self.before[b], self.after[b]);
-        self.after[a] = c;
-        self.before[c] = a;
-        self.count -= 1;
-        self.is_hollow[b] = false;
-        // A corner farther on: triangles stay broader than those of a fan.
-        self.next = self.after[c];
-        self.judge_turn(a);
-        self.judge_turn(c);
-        self.judge_ear(a);
-        self.judge_ear(c);
-        if self.hollow.len() > 64 && self.count.is_multiple_of(32) {
-            let is_hollow = &self.is_hollow;
-            self.hollow.retain(|&i| is_hollow[i]);
-        }
-        Some([a, b, c])
-    }
-
-    /// The corners that are left.
-    fn left(&self, left: &mut Vec<usize>) -> Result<()> {
-        let mut i = self.next;
-        for _ in 0..self.count {
-            push("corners of a cap", left, i)?;
-            i = self.after[i];
-        }
-        Ok(())
-    }
+/// The corners of a ring in units of its size.
+fn unit(ring: &[u32], flat: &Flat) -> Result<Vec<[f64; 2]>> {
+    let first = ring.first().map_or([0.0; 2], |&v| flat.at(v));
+    let off = |v: &u32| {
+        let p = flat.at(*v);
+        [p[0] - first[0], p[1] - first[1]]
+    };
+    let size = ring.iter().map(off).fold(0.0f64, |m, p| m.max(p[0].abs()).max(p[1].abs()));
+    let scale = if size > 1e-150 { 1.0 / size } else { 1.0 };
+    collected("corners of a cap", ring.iter().map(off).map(|p| p.map(|x| x * scale)))
 }

@@ -5,6 +5,7 @@
 //! together.
 
 use crate::error::{Error, Result, collected, push, reserve};
+use crate::mass::check_spheres;
 use crate::math::{Sphere, Vec3};
 use std::f64::consts::{PI, TAU};
 
@@ -49,7 +50,7 @@ impl Union {
     /// Of spheres in a frame in which they are of about unit size. Refused: no sphere, a sphere
     /// that is not finite or has no radius.
     pub fn new(spheres: &[Sphere]) -> Result<Union> {
-        check(spheres)?;
+        check_spheres(spheres)?;
         let spheres = outermost(spheres)?;
         let (starts, near) = neighbours(&spheres)?;
         let mut union = Union {
@@ -328,29 +329,6 @@ fn neighbours(spheres: &[Sphere]) -> Result<(Vec<u32>, Vec<u32>)> {
         starts.push(end);
     }
     Ok((starts, near))
-}
-
-/// Refuses an empty list, and spheres that are not finite or have no radius.
-fn check(spheres: &[Sphere]) -> Result<()> {
-    if spheres.is_empty() {
-        return Err(Error::Empty("the clump has no sphere".into()));
-    }
-    for (i, s) in spheres.iter().enumerate() {
-        let c = &s.center;
-        if !(c.iter().all(|x| x.is_finite()) && s.radius.is_finite()) {
-            return Err(Error::NotFinite(format!(
-                "sphere {i} has centre ({}, {}, {}) and radius {}",
-                c.x, c.y, c.z, s.radius
-            )));
-        }
-        if s.radius <= 0.0 {
-            return Err(Error::InvalidArgument(format!(
-                "sphere {i} has radius {}, not above 0",
-                s.radius
-            )));
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -14,7 +14,8 @@ fn directions(n: usize) -> impl Iterator<Item = Vec3> {
     })
 }
 
-/// The nearest of very many exposed points, and how far apart these are.
+/// The nearest of very many exposed points, and how far apart these are. Points of the circles where
+/// two spheres meet are among them: a patch may end in a tip too narrow for points of its sphere.
 fn sampled(spheres: &[Sphere], p: &Vec3) -> (f64, f64) {
     const MANY: usize = 20_000;
     let mut least = f64::MAX;
@@ -27,6 +28,27 @@ fn sampled(spheres: &[Sphere], p: &Vec3) -> (f64, f64) {
                 |(j, o): (usize, &Sphere)| j != i && (q - o.center).norm() < o.radius - 1e-9;
             if !spheres.iter().enumerate().any(hidden) {
                 least = least.min((q - p).norm());
+            }
+        }
+        for (j, o) in spheres.iter().enumerate().skip(i + 1) {
+            let way = o.center - s.center;
+            let along = 0.5
+                * (1.0 + (s.radius.powi(2) - o.radius.powi(2)) / way.norm_squared().max(1e-300));
+            let radius2 = s.radius.powi(2) - along * along * way.norm_squared();
+            if radius2 <= 0.0 {
+                continue;
+            }
+            let u = way.cross(&Vec3::new(0.3, -0.7, 0.2)).normalize() * radius2.sqrt();
+            let v = way.normalize().cross(&u);
+            for k in 0..MANY {
+                let (sin, cos) = (TAU * k as f64 / MANY as f64).sin_cos();
+                let q = s.center + way * along + u * cos + v * sin;
+                let hidden = |(m, o): (usize, &Sphere)| {
+                    m != i && m != j && (q - o.center).norm() < o.radius - 1e-9
+                };
+                if !spheres.iter().enumerate().any(hidden) {
+                    least = least.min((q - p).norm());
+                }
             }
         }
     }

@@ -18,6 +18,7 @@ mod union;
 
 pub use body::{Body, Target, coverage_rule, inertia_error};
 pub use correct::{Infeasible, MassOptions, MassStatus, Masses, Objective, Residuals, correct};
+pub(crate) use pile::check as check_spheres;
 pub use single::single_precision;
 pub use timestep::{Contact, ContactOptions, TimeStep, time_step};
 pub use transform::{Placement, random_orientations};

@@ -49,7 +49,7 @@ impl Pile {
 }
 
 /// Refuses an empty list, and spheres that are not finite or have no radius.
-pub(super) fn check(spheres: &[Sphere]) -> Result<()> {
+pub(crate) fn check(spheres: &[Sphere]) -> Result<()> {
     if spheres.is_empty() {
         return Err(Error::Empty("the clump has no sphere".into()));
     }

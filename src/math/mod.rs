@@ -2,6 +2,7 @@
 //! directions.
 
 mod angle;
+mod ears;
 mod frame;
 mod inertia;
 mod principal;
@@ -9,6 +10,7 @@ mod sphere;
 
 pub(crate) use angle::half_solid_angle;
 pub use angle::solid_angle;
+pub(crate) use ears::{Ears, Next, turn};
 pub use frame::UnitFrame;
 pub use inertia::{Inertia, Moments};
 pub use principal::PrincipalFrame;

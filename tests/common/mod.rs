@@ -3,6 +3,7 @@
 #![allow(dead_code, clippy::panic, clippy::print_stdout, clippy::unwrap_used)]
 
 pub mod c_header;
+pub mod fragments;
 
 use morula::math::{Sphere, Vec3};
 use morula::shape::primitive::Primitive;

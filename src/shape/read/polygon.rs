@@ -1,14 +1,11 @@
 //! Polygons cut into triangles.
 
-use crate::error::{Result, filled, push, reserve};
-use crate::math::Vec3;
+use crate::error::{Result, push, reserve};
+use crate::math::{Ears, Next, Vec3};
 
 /// More corners than this are cut as a fan: a fan of a polygon that is not convex
 /// folds over itself, but its boundary and its signed volume are right.
 const MOST_EARS: usize = 2048;
-
-/// A corner turns left when the triangle there has more than this area, in units of the size.
-const LEFT: f64 = 1e-14;
 
 /// Cuts the polygon with the given corners into triangles: ears in the polygon's
 /// mean plane (Newell's normal), which for a convex polygon is a fan.
@@ -24,7 +21,7 @@ pub fn triangulate(corners: &[u32], vertices: &[[f64; 3]], out: &mut Vec<[u32; 3
         let place = |&c: &u32| vertices.get(c as usize).map_or(Vec3::zeros(), |v| Vec3::from(*v));
         let mut points = reserve("corners of a polygon", n)?;
         points.extend(corners.iter().map(place));
-        polygon = project(&points)?.map(Ears::new).transpose()?;
+        polygon = project(&points)?.map(|flat| Ears::new(flat, Next::Here)).transpose()?;
     }
     let mut left: Vec<usize> = reserve("corners of a polygon", n)?;
     match polygon {
@@ -42,114 +39,6 @@ pub fn triangulate(corners: &[u32], vertices: &[[f64; 3]], out: &mut Vec<[u32; 3
         }
     }
     Ok(())
-}
-
-/// A polygon whose ears are cut off: what is an ear changes only beside the cut, and only
-/// corners that turn right can lie in one. So the work is the number of corners times the
-/// number of those.
-struct Ears {
-    flat: Vec<[f64; 2]>,
-    /// The corners before and after each one that are left.
-    before: Vec<usize>,
-    after: Vec<usize>,
-    count: usize,
-    ear: Vec<bool>,
-    /// Corners that do not turn left, among those that are left or were.
-    hollow: Vec<usize>,
-    is_hollow: Vec<bool>,
-    /// Where the next ear is looked for.
-    at: usize,
-}
-
-impl Ears {
-    fn new(flat: Vec<[f64; 2]>) -> Result<Ears> {
-        let n = flat.len();
-        let mut before = reserve("corners of a polygon", n)?;
-        before.extend((0..n).map(|i| (i + n - 1) % n));
-        let mut after = reserve("corners of a polygon", n)?;
-        after.extend((0..n).map(|i| (i + 1) % n));
-        let mut ears = Ears {
-            flat,
-            before,
-            after,
-            count: n,
-            ear: filled("corners of a polygon", n, false)?,
-            hollow: reserve("corners of a polygon", n)?,
-            is_hollow: filled("corners of a polygon", n, false)?,
-            at: 0,
-        };
-        (0..n).for_each(|i| ears.judge_turn(i));
-        (0..n).for_each(|i| ears.judge_ear(i));
-        Ok(ears)
-    }
-
-    /// Cuts an ear off; `None` at the last triangle, or where there is no ear.
-    fn cut(&mut self) -> Option<[usize; 3]> {
-        if self.count <= 3 {
-            return None;
-        }
-        let mut b = self.at;
-        for _ in 0..self.count {
-            if self.ear[b] {
-                break;
-            }
-            b = self.after[b];
-        }
-        if !self.ear[b] {
-            return None;
-        }
-        let (a, c) = (self.before[b], self.after[b]);
-        self.after[a] = c;
-        self.before[c] = a;
-        self.count -= 1;
-        self.is_hollow[b] = false;
-        // Stay at the same place: the next ear then shares the corner, as in a fan.
-        self.at = c;
-        self.judge_turn(a);
-        self.judge_turn(c);
-        self.judge_ear(a);
-        self.judge_ear(c);
-        Some([a, b, c])
-    }
-
-    /// The corners that are left, in their order.
-    fn left(&self) -> impl Iterator<Item = usize> {
-        // From the lowest, as if those that are gone had been taken out of a row.
-        let mut first = self.at;
-        let mut i = self.after[first];
-        while i != self.at {
-            first = first.min(i);
-            i = self.after[i];
-        }
-        std::iter::successors(Some(first), |&i| Some(self.after[i])).take(self.count)
-    }
-
-    fn judge_turn(&mut self, b: usize) {
-        let [p, q, r] = [self.before[b], b, self.after[b]].map(|i| self.flat[i]);
-        let hollow = turn(p, q, r) <= LEFT;
-        if hollow && !self.is_hollow[b] {
-            self.hollow.push(b);
-        }
-        self.is_hollow[b] = hollow;
-    }
-
-    /// Whether the corner turns left and no other one lies in the triangle.
-    fn judge_ear(&mut self, b: usize) {
-        let [p, q, r] = [self.before[b], b, self.after[b]].map(|i| self.flat[i]);
-        let is_hollow = &self.is_hollow;
-        self.hollow.retain(|&i| is_hollow[i]);
-        self.ear[b] = !self.is_hollow[b]
-            && self.hollow.iter().all(|&i| {
-                let s = self.flat[i];
-                // Corners at the same place, as at the ends of a bridge to a hole, do not count.
-                s == p
-                    || s == q
-                    || s == r
-                    || turn(p, q, s) < 0.0
-                    || turn(q, r, s) < 0.0
-                    || turn(r, p, s) < 0.0
-            });
-    }
 }
 
 /// The corners in the plane of the polygon, scaled to size one.
@@ -181,10 +70,6 @@ fn project(points: &[Vec3]) -> Result<Option<Vec<[f64; 2]>>> {
     let mut flat = reserve("corners of a polygon", points.len())?;
     flat.extend(points.iter().map(unit).map(|p| [p[u], p[v]]));
     Ok(Some(flat))
-}
-
-fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
 #[cfg(test)]

@@ -82,7 +82,7 @@ pub(super) fn close(mesh: &Mesh, manifold: bool, limit: u64, run: &Run) -> Resul
     let chunks = run.pool().map(rims.len().div_ceil(CHUNK), |c| {
         let some = (c * CHUNK..rims.len().min((c + 1) * CHUNK)).map(|i| {
             let points = rims.points(mesh, i)?;
-            let lid = if rims.plain(i) { over(&points) } else { None };
+            let lid = if rims.plain(i) { over(&points)? } else { None };
             Ok(lid.filter(|lid| is_opening(lid, &points, &winding)))
         });
         some.collect::<Result<Vec<Option<Lid>>>>()
