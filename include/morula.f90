@@ -3,8 +3,8 @@
 ! Compile this file with your own compiler (CMake: link morula::fortran). It has
 ! two layers. The first is one bind(c) interface for each function of morula.h,
 ! with the same names, and its structs as bind(c) types. The second are the types
-! morula_shape_t, morula_solid_t, morula_clump_t, morula_body_t, morula_parent_t and
-! morula_fragments_t, which hold a handle:
+! morula_shape_t, morula_solid_t, morula_clump_t, morula_body_t, morula_parent_t,
+! morula_cache_t and morula_fragments_t, which hold a handle:
 !
 !   type(morula_shape_t) :: shape
 !   type(morula_clump_t) :: clump
@@ -75,6 +75,7 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_HELD = 16_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_FRAGMENT = 17_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_BREAK_TOTALS = 18_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_CACHE_COUNTS = 19_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_REFUSE = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_LARGEST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_ALL = 2_c_int32_t
@@ -467,6 +468,15 @@ module morula
     real(c_double) :: shift(3) = 0.0_c_double
   end type morula_break_totals
 
+  type, bind(c), public :: morula_cache_counts
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    integer(c_int64_t) :: hits = 0_c_int64_t
+    integer(c_int64_t) :: misses = 0_c_int64_t
+    integer(c_int64_t) :: evicted = 0_c_int64_t
+    integer(c_int64_t) :: parents = 0_c_int64_t
+    integer(c_int64_t) :: bytes = 0_c_int64_t
+  end type morula_cache_counts
+
   ! ---- functions of morula.h ----
 
   public :: morula_version, morula_version_string, morula_status_name, morula_last_error_message
@@ -501,6 +511,9 @@ module morula
   public :: morula_stopped_name, morula_clump_copy_note, morula_clump_moments
   public :: morula_clump_overlap, morula_clump_surface, morula_clump_copy_exposed_areas
   public :: morula_clump_copy_plane_contacts, morula_clump_counters
+  public :: morula_fragments_serialize, morula_fragments_deserialize
+  public :: morula_cache_new, morula_cache_parent, morula_cache_counters, morula_cache_clear
+  public :: morula_cache_free
   public :: morula_parent_from_solid, morula_parent_from_clump, morula_parent_bytes
   public :: morula_parent_free, morula_held_init, morula_parent_held, morula_fragments_held
   public :: morula_break_options_init, morula_parent_break, morula_parents_break
@@ -1187,6 +1200,24 @@ module morula
       type(c_ptr), intent(out) :: clump
       integer(c_int32_t) :: r
     end function morula_clump_deserialize
+    function morula_fragments_serialize(fragments, index, capacity, bytes, size) bind(c) result(r)
+      import
+      type(c_ptr), value :: fragments
+      integer(c_size_t), value :: index
+      integer(c_size_t), value :: capacity
+      integer(c_int8_t), intent(inout), optional :: bytes(*)
+      integer(c_size_t), intent(out), optional :: size
+      integer(c_int32_t) :: r
+    end function morula_fragments_serialize
+    function morula_fragments_deserialize(parent, bytes, size, held, fragments) bind(c) result(r)
+      import
+      type(c_ptr), value :: parent
+      integer(c_int8_t), intent(in) :: bytes(*)
+      integer(c_size_t), value :: size
+      type(morula_held), intent(in) :: held
+      type(c_ptr), intent(inout) :: fragments
+      integer(c_int32_t) :: r
+    end function morula_fragments_deserialize
     subroutine morula_files_free(files) bind(c)
       import
       type(c_ptr), value :: files
@@ -1218,6 +1249,37 @@ module morula
       import
       type(c_ptr), value :: parent
     end subroutine morula_parent_free
+    function morula_cache_new(limit, cache) bind(c) result(r)
+      import
+      integer(c_int64_t), value :: limit
+      type(c_ptr), intent(inout) :: cache
+      integer(c_int32_t) :: r
+    end function morula_cache_new
+    function morula_cache_parent(cache, shape, options, xyzr, count, parent) bind(c) result(r)
+      import
+      type(c_ptr), value :: cache
+      type(c_ptr), value :: shape
+      type(morula_solid_options), intent(in), optional :: options
+      real(c_double), intent(in) :: xyzr(4, *)
+      integer(c_size_t), value :: count
+      type(c_ptr), intent(inout) :: parent
+      integer(c_int32_t) :: r
+    end function morula_cache_parent
+    function morula_cache_counters(cache, counters) bind(c) result(r)
+      import
+      type(c_ptr), value :: cache
+      type(morula_cache_counts), intent(inout) :: counters
+      integer(c_int32_t) :: r
+    end function morula_cache_counters
+    function morula_cache_clear(cache) bind(c) result(r)
+      import
+      type(c_ptr), value :: cache
+      integer(c_int32_t) :: r
+    end function morula_cache_clear
+    subroutine morula_cache_free(cache) bind(c)
+      import
+      type(c_ptr), value :: cache
+    end subroutine morula_cache_free
     function morula_held_init(held, size) bind(c) result(r)
       import
       type(morula_held), intent(out) :: held
@@ -1542,9 +1604,10 @@ module morula
     private
     type(c_ptr) :: handle = c_null_ptr
   contains
-    procedure, private :: parent_from_clump, parent_from_spheres
-    !> Of a solid and its clump, or spheres xyzr(4, n) in its frame, of which there may be none.
-    generic :: create => parent_from_clump, parent_from_spheres
+    procedure, private :: parent_from_clump, parent_from_spheres, parent_from_cache
+    !> Of a solid and its clump, or spheres xyzr(4, n) in its frame, of which there may be none; or
+    !> of a shape and spheres, when a cache does not hold it.
+    generic :: create => parent_from_clump, parent_from_spheres, parent_from_cache
     !> The body of the whole in its place, quaternion (w, x, y, z) that of the body axes.
     procedure :: held => parent_held
     procedure :: bytes => parent_bytes
@@ -1555,6 +1618,23 @@ module morula
     generic :: assignment(=) => parent_assign
     final :: parent_final
   end type morula_parent_t
+
+  !> Prepared parents that are used again, within a bound of bytes.
+  type, public :: morula_cache_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    !> An empty one that holds so many bytes at most.
+    procedure :: create => cache_create
+    procedure :: counters => cache_counters
+    procedure :: clear => cache_clear
+    procedure :: destroy => cache_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => cache_handle
+    procedure, private :: cache_assign
+    generic :: assignment(=) => cache_assign
+    final :: cache_final
+  end type morula_cache_t
 
   !> The fragments of one break, counted from 1, and its dust.
   type, public :: morula_fragments_t
@@ -1583,6 +1663,9 @@ module morula
     procedure :: copy_half_spaces => fragments_copy_half_spaces
     !> The surface of a fragment.
     procedure :: shape => fragments_shape
+    !> A fragment as bytes, and again fragment 1, beside a parent of the same shape and grid.
+    procedure :: serialize => fragments_serialize
+    procedure :: deserialize => fragments_deserialize
     !> The spheres, grown by a part from 0 to 1 as far as others(4, m) leave room.
     procedure :: grow => fragments_grow
     procedure :: note_count => fragments_note_count
@@ -2640,6 +2723,19 @@ contains
       threads_or_1(threads), self%handle), status)
   end subroutine parent_from_spheres
 
+  subroutine parent_from_cache(self, cache, shape, xyzr, options, status)
+    class(morula_parent_t), intent(inout) :: self
+    class(morula_cache_t), intent(in) :: cache
+    class(morula_shape_t), intent(in) :: shape
+    real(c_double), intent(in), contiguous :: xyzr(:, :)
+    type(morula_solid_options), intent(in), optional :: options
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call self%destroy()
+    call finish(morula_cache_parent(cache%handle, shape%handle, options, xyzr, &
+      size(xyzr, 2, c_size_t), self%handle), status)
+  end subroutine parent_from_cache
+
   pure function threads_or_1(threads) result(n)
     integer, intent(in), optional :: threads
     integer(c_int32_t) :: n
@@ -2732,7 +2828,82 @@ contains
     call self%destroy()
   end subroutine parent_final
 
+  ! ---- parents that are used again ----
+
+  subroutine cache_create(self, limit, status)
+    class(morula_cache_t), intent(inout) :: self
+    integer(c_int64_t), intent(in) :: limit
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_cache_new(limit, self%handle), status)
+  end subroutine cache_create
+
+  subroutine cache_counters(self, counters, status)
+    class(morula_cache_t), intent(in) :: self
+    type(morula_cache_counts), intent(out) :: counters
+    integer(c_int32_t), intent(out), optional :: status
+    counters%struct_size = c_sizeof(counters)
+    call finish(morula_cache_counters(self%handle, counters), status)
+  end subroutine cache_counters
+
+  subroutine cache_clear(self, status)
+    class(morula_cache_t), intent(in) :: self
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_cache_clear(self%handle), status)
+  end subroutine cache_clear
+
+  subroutine cache_destroy(self)
+    class(morula_cache_t), intent(inout) :: self
+    call morula_cache_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine cache_destroy
+
+  function cache_handle(self) result(handle)
+    class(morula_cache_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function cache_handle
+
+  subroutine cache_assign(self, other)
+    class(morula_cache_t), intent(inout) :: self
+    class(morula_cache_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine cache_assign
+
+  impure elemental subroutine cache_final(self)
+    type(morula_cache_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine cache_final
+
   ! ---- fragments ----
+
+  subroutine fragments_serialize(self, index, bytes, status)
+    class(morula_fragments_t), intent(in) :: self
+    integer, intent(in) :: index
+    integer(c_int8_t), allocatable, intent(out) :: bytes(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: length, at
+    integer(c_int32_t) :: code
+    length = 0
+    at = int(index - 1, c_size_t)
+    code = morula_fragments_serialize(self%handle, at, 0_c_size_t, size=length)
+    allocate(bytes(length))
+    if (code == MORULA_STATUS_OK) then
+      code = morula_fragments_serialize(self%handle, at, length, bytes)
+    end if
+    call finish(code, status)
+  end subroutine fragments_serialize
+
+  subroutine fragments_deserialize(self, parent, bytes, held, status)
+    class(morula_fragments_t), intent(inout) :: self
+    class(morula_parent_t), intent(in) :: parent
+    integer(c_int8_t), intent(in), contiguous :: bytes(:)
+    type(morula_held), intent(in) :: held
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_fragments_deserialize(parent%handle, bytes, size(bytes, kind=c_size_t), &
+      held, self%handle), status)
+  end subroutine fragments_deserialize
 
   subroutine fragments_of_parent(self, parent, held, options, status)
     class(morula_fragments_t), intent(inout) :: self

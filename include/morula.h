@@ -8,8 +8,8 @@
  * written only on success.
  *
  * Ownership. Handles (morula_shape, morula_solid, morula_clump, morula_body,
- * morula_files, morula_parent, morula_fragments) are made by the library and
- * taken back by their _free function, which ignores NULL. Arrays and strings
+ * morula_files, morula_parent, morula_cache, morula_fragments) are made by the
+ * library and taken back by their _free function, which ignores NULL. Arrays and strings
  * that you hand in are copied before the call returns. Results are copied into
  * your arrays; nothing points into the library but the texts of the _name and
  * _version functions and the last message.
@@ -172,6 +172,9 @@
 
 /// morula_break_totals, for morula_sizeof().
 #define MORULA_STRUCT_BREAK_TOTALS 18
+
+/// morula_cache_counts, for morula_sizeof().
+#define MORULA_STRUCT_CACHE_COUNTS 19
 
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 #define MORULA_BODIES_REFUSE 0
@@ -456,6 +459,10 @@
 /// morula_body_from_spheres() or morula_body_transform(), freed by morula_body_free().
 typedef struct morula_body morula_body;
 
+/// Prepared parents that are used again, within a bound of memory. Made by morula_cache_new(), freed
+/// by morula_cache_free(). The parents that it gave do not need it any more.
+typedef struct morula_cache morula_cache;
+
 /// A clump: spheres and what was measured on them. Made by
 /// morula_clump_from_shape() or morula_clump_from_solid(), freed by
 /// morula_clump_free(). It needs neither shape nor solid any more.
@@ -470,8 +477,8 @@ typedef struct morula_files morula_files;
 typedef struct morula_fragments morula_fragments;
 
 /// A particle that may break: its solid and the spheres of its clump, with what every break of it
-/// reads. Made once a template by morula_parent_from_solid() or morula_parent_from_clump(), freed
-/// by morula_parent_free(). It needs neither the solid nor the clump any more.
+/// reads. Made once a template by morula_parent_from_solid(), morula_parent_from_clump() or
+/// morula_cache_parent(), freed by morula_parent_free(). It needs neither the solid nor the clump any more.
 typedef struct morula_parent morula_parent;
 
 /// A checked shape: something with an inside. Made by the morula_shape_from_
@@ -1007,6 +1014,22 @@ typedef struct morula_held {
   /// Angular velocity, along the axes of the world.
   double angular_velocity[3];
 } morula_held;
+
+/// What a cache of parents has done, and what it holds.
+typedef struct morula_cache_counts {
+  /// sizeof(morula_cache_counts), set by the caller.
+  size_t struct_size;
+  /// Parents that were there.
+  uint64_t hits;
+  /// Parents that were made.
+  uint64_t misses;
+  /// Parents that had to go, or that were too large to stay.
+  uint64_t evicted;
+  /// Parents that are held.
+  uint64_t parents;
+  /// Bytes of these, with their solids.
+  uint64_t bytes;
+} morula_cache_counts;
 
 /// How a particle breaks. Fill it with morula_break_options_init(). Points, directions and
 /// half-spaces are in the frame and unit of the shape.
@@ -2218,6 +2241,52 @@ int32_t morula_parent_held(const struct morula_parent *parent,
                            const double *angular_velocity,
                            struct morula_held *held);
 
+/// An empty cache of parents, the caller's own: nothing is global.
+///
+/// Parameters: `limit` is how many bytes the parents that it keeps may hold, with their solids; those
+/// not used for longest go first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; OUT_OF_MEMORY.
+/// Ownership: free *cache with morula_cache_free(). *cache is written only on success.
+/// Threads: any thread.
+int32_t morula_cache_new(uint64_t limit,
+                         struct morula_cache **cache);
+
+/// The parent of a shape with its spheres: the one that was made before of the same shape, grid and
+/// spheres, else a new one, which stays in the cache when there is room. The parent, and all that
+/// is made of it, does not depend on what the cache holds.
+///
+/// Parameters: `options` are those of its solid, NULL for the defaults; their threads, progress and
+/// user are those of the call. `xyzr` and `count` as morula_parent_from_solid().
+/// Returns: the statuses of morula_solid_from_shape() and morula_parent_from_solid().
+/// Ownership: inputs stay the caller's and may be freed at once; free *parent with
+/// morula_parent_free(): the cache keeps its own. *parent is written only on success.
+/// Threads: may run at the same time as other functions on this handle but morula_cache_free().
+int32_t morula_cache_parent(const struct morula_cache *cache,
+                            const struct morula_shape *shape,
+                            const struct morula_solid_options *options,
+                            const double *xyzr,
+                            size_t count,
+                            struct morula_parent **parent);
+
+/// What a cache has done, and what it holds.
+///
+/// Parameters: `counters` is filled: set its struct_size first.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE.
+/// Threads: as morula_cache_parent().
+int32_t morula_cache_counters(const struct morula_cache *cache,
+                              struct morula_cache_counts *counters);
+
+/// Lets all parents of a cache go; its counters of what was done stay.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: as morula_cache_parent().
+int32_t morula_cache_clear(const struct morula_cache *cache);
+
+/// Takes a cache back, not the parents that it gave. NULL is ignored; a handle must not be used
+/// afterwards.
+/// Threads: no other thread may use the handle.
+void morula_cache_free(struct morula_cache *cache);
+
 /// The body of fragment `index` (from 0) as the solver holds it now, for it to break again.
 ///
 /// Parameters: `position`, `quaternion`, `velocity` and `angular_velocity` as
@@ -2414,8 +2483,8 @@ int32_t morula_fragments_copy_half_spaces(const struct morula_fragments *fragmen
 
 /// The surface of fragment `index` (from 0) as a shape of its own, in the frame of the shape.
 ///
-/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; UNSUPPORTED (the parent is no closed
-/// mesh); the statuses of morula_shape_from_mesh().
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; UNSUPPORTED (the parent is a mesh that
+/// is open or crosses itself); the statuses of morula_shape_from_mesh().
 /// Ownership: free *shape with morula_shape_free(). *shape is written only on success.
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_fragments_shape(const struct morula_fragments *fragments,
@@ -2500,6 +2569,33 @@ int32_t morula_clump_serialize(const struct morula_clump *clump,
 int32_t morula_clump_deserialize(const uint8_t *bytes,
                                  size_t size,
                                  struct morula_clump **clump);
+
+/// Writes fragment `index` (from 0) as bytes, as morula_shape_serialize() does a shape: which part of
+/// its first parent it is, and its spheres; 20 spheres make about 1.5 KiB. What the solver holds of it
+/// (morula_held) travels with the solver's own data.
+///
+/// Parameters, returns, threads: as morula_shape_serialize(); INDEX_OUT_OF_RANGE.
+int32_t morula_fragments_serialize(const struct morula_fragments *fragments,
+                                   size_t index,
+                                   size_t capacity,
+                                   uint8_t *bytes,
+                                   size_t *size);
+
+/// Makes a fragment again, beside a parent of the same shape and grid: fragment 0 of *fragments, which
+/// can be read, grown and broken as the one that was written. Its spheres are the same to the last bit.
+/// It has no masses of spheres and no map, its coverage, volume_share and step_factor are 0.
+///
+/// Parameters: `held` is the fragment as the solver holds it: what it takes over.
+/// Returns: as morula_shape_deserialize(); INVALID_ARGUMENT (bytes of a fragment of another parent;
+/// the held body); NOT_FINITE and STRUCT_SIZE (the held body).
+/// Ownership: inputs are copied; free *fragments with morula_fragments_free(). *fragments is written
+/// only on success.
+/// Threads: any thread; the parent is only read.
+int32_t morula_fragments_deserialize(const struct morula_parent *parent,
+                                     const uint8_t *bytes,
+                                     size_t size,
+                                     const struct morula_held *held,
+                                     struct morula_fragments **fragments);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -58,6 +58,7 @@ struct Free {
   void operator()(morula_body *p) const noexcept { morula_body_free(p); }
   void operator()(morula_files *p) const noexcept { morula_files_free(p); }
   void operator()(morula_parent *p) const noexcept { morula_parent_free(p); }
+  void operator()(morula_cache *p) const noexcept { morula_cache_free(p); }
   void operator()(morula_fragments *p) const noexcept { morula_fragments_free(p); }
 };
 template <class T>
@@ -795,7 +796,39 @@ class Parent {
   const morula_parent *get() const noexcept { return handle_.get(); }
 
  private:
+  friend class Cache;
+  explicit Parent(detail::Handle<morula_parent> handle) : handle_(std::move(handle)) {}
   detail::Handle<morula_parent> handle_;
+};
+
+/// Prepared parents that are used again, within a bound of bytes; the caller's own.
+class Cache {
+ public:
+  explicit Cache(std::uint64_t limit) {
+    morula_cache *raw = nullptr;
+    check(morula_cache_new(limit, &raw));
+    handle_.reset(raw);
+  }
+  /// The parent that was made before of the same shape, grid and spheres, else a new one.
+  Parent parent(const Shape &shape, const std::vector<Sphere> &spheres = {},
+                const SolidOptions &options = {}, Progress progress = {}) const {
+    const auto xyzr = detail::flat(spheres);
+    return Parent(detail::made<morula_parent>(
+        options, std::move(progress), [&](const auto &o, morula_parent **out) {
+          return morula_cache_parent(get(), shape.get(), &o, xyzr.data(), spheres.size(), out);
+        }));
+  }
+  /// What it has done, and what it holds.
+  morula_cache_counts counters() const {
+    return detail::filled<morula_cache_counts>(
+        [&](morula_cache_counts *c) { return morula_cache_counters(get(), c); });
+  }
+  /// Lets all parents go.
+  void clear() { check(morula_cache_clear(get())); }
+  const morula_cache *get() const noexcept { return handle_.get(); }
+
+ private:
+  detail::Handle<morula_cache> handle_;
 };
 
 /// Which spheres of what broke those of a fragment come from: those of sphere i are the pairs
@@ -830,6 +863,19 @@ class Fragments {
         options, std::move(progress), [&](const auto &o, morula_fragments **out) {
           return morula_reclump_shape(solid.get(), xyzr.data(), old.size(), &held, &o, out);
         }));
+  }
+  /// What serialize() gave, as fragment 0, beside a parent of the same shape and grid.
+  static Fragments deserialize(const Parent &parent, const std::vector<std::uint8_t> &bytes,
+                               const Held &held) {
+    morula_fragments *raw = nullptr;
+    check(morula_fragments_deserialize(parent.get(), bytes.data(), bytes.size(), &held, &raw));
+    return Fragments(detail::Handle<morula_fragments>(raw));
+  }
+  /// A fragment as bytes, for another rank or a restart file.
+  std::vector<std::uint8_t> serialize(std::size_t index) const {
+    return detail::bytes([&](std::size_t capacity, std::uint8_t *to, std::size_t *size) {
+      return morula_fragments_serialize(get(), index, capacity, to, size);
+    });
   }
   /// All breaks of one time step, which threads (those of the first options) share; throws for the
   /// first that fails.

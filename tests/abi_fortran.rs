@@ -56,7 +56,7 @@ fn c_kind(c: &str) -> Kind {
         "char" => "char",
         "void" if !c.contains('*') => "nothing",
         "morula_shape" | "morula_solid" | "morula_clump" | "morula_body" | "morula_files"
-        | "morula_parent" | "morula_fragments" | "void" => "handle",
+        | "morula_parent" | "morula_cache" | "morula_fragments" | "void" => "handle",
         "morula_progress" | "morula_log" => "callback",
         other => other,
     };
@@ -181,7 +181,7 @@ fn functions_have_the_same_names_and_arguments() {
 fn structs_have_the_same_fields() {
     let c = c_interface().structs;
     let fortran = fortran_interface(&read("morula.f90")).structs;
-    assert_eq!(c.len(), 18);
+    assert_eq!(c.len(), 19);
     assert_eq!(c.keys().collect::<Vec<_>>(), fortran.keys().collect::<Vec<_>>());
     for (name, ours) in &c {
         let theirs = &fortran[name];

@@ -77,6 +77,22 @@ int main() {
   const auto spheres = clump.spheres();
   CHECK(spheres.size() == clump.size() && spheres[0].radius > 0.2);
   CHECK(clump.note().empty() == (clump.size() == 15));
+  {
+    // A cache keeps one parent; a fragment of it arrives as it was sent.
+    morula::Cache cache(1u << 30);
+    const morula::Parent parent = cache.parent(shape), again = cache.parent(shape);
+    CHECK(cache.counters().hits == 1 && cache.counters().parents == 1);
+    cache.clear();
+    CHECK(cache.counters().parents == 0 && parent.bytes() == again.bytes());
+    const morula::Fragments sent(parent, parent.held(2.0));
+    const auto bytes = sent.serialize(1);
+    const auto arrived = morula::Fragments::deserialize(again, bytes, sent.held(1));
+    CHECK(arrived.size() == 1 && arrived[0].volume == sent[1].volume);
+    CHECK(arrived.spheres(0).size() == sent.spheres(1).size());
+    CHECK(status_of([&] {
+            morula::Fragments::deserialize(parent, {1, 2, 3}, sent.held(1));
+          }) == MORULA_STATUS_FORMAT);
+  }
   CHECK(clump.overlap().coverage > 0.4 && clump.surface().samples > 0);
   CHECK(clump.exposed_areas().size() == spheres.size());
   CHECK(clump.plane_contacts(2)[1] >= clump.plane_contacts(2)[0]);

@@ -63,6 +63,7 @@ contains
     type(morula_held) :: held
     type(morula_fragment) :: fragment
     type(morula_break_totals) :: break_totals
+    type(morula_cache_counts) :: cache_counts
     type(morula_mass_options) :: mass_options
     type(morula_masses) :: masses
     type(morula_contact_options) :: contact_options
@@ -86,7 +87,8 @@ contains
     call same_size(MORULA_STRUCT_HELD, c_sizeof(held))
     call same_size(MORULA_STRUCT_FRAGMENT, c_sizeof(fragment))
     call same_size(MORULA_STRUCT_BREAK_TOTALS, c_sizeof(break_totals))
-    call check(morula_sizeof(MORULA_STRUCT_BREAK_TOTALS + 1) == 0, 'every struct is compared')
+    call same_size(MORULA_STRUCT_CACHE_COUNTS, c_sizeof(cache_counts))
+    call check(morula_sizeof(MORULA_STRUCT_CACHE_COUNTS + 1) == 0, 'every struct is compared')
   end subroutine sizes
 
   subroutine same_size(which, ours)

@@ -8,12 +8,15 @@ program fortran_fragments
   type(morula_shape_t) :: shape, part
   type(morula_solid_t) :: solid
   type(morula_clump_t) :: clump
-  type(morula_parent_t) :: parents(2)
-  type(morula_fragments_t) :: broken, again, both(2)
+  type(morula_parent_t) :: parents(2), elsewhere
+  type(morula_cache_t) :: cache
+  type(morula_cache_counts) :: counters
+  type(morula_fragments_t) :: broken, again, both(2), arrived
   type(morula_clump_options) :: clump_options
   type(morula_break_options) :: options
   type(morula_held) :: held, bodies(2)
-  type(morula_fragment) :: f
+  type(morula_fragment) :: f, g
+  integer(c_int8_t), allocatable :: packed(:)
   type(morula_break_totals) :: totals
   real(c_double), allocatable :: spheres(:, :), xyzr(:, :), grown(:, :), masses(:), shares(:)
   real(c_double), allocatable :: planes(:, :)
@@ -68,6 +71,36 @@ program fortran_fragments
   call broken%held(1, held)
   call again%create(broken, 1, held, options)
   call conserves(again)
+
+  ! It goes to another rank, where a cache has the parent, and breaks there into the same.
+  call cache%create(int(10, c_int64_t)**9)
+  do k = 1, 2
+    call elsewhere%create(cache, shape, spheres)
+  end do
+  call cache%counters(counters)
+  call check(counters%hits == 1 .and. counters%misses == 1, 'made once')
+  call broken%serialize(1, packed)
+  call check(size(packed) < 4096, 'few bytes')
+  call arrived%deserialize(elsewhere, packed, held)
+  call broken%get(1, f)
+  call arrived%get(1, g)
+  call check(f%sphere_count == g%sphere_count, 'as many spheres')
+  call check(maxval(abs(f%position - g%position)) < 1e-12_c_double, 'where it was')
+  call both(1)%create(arrived, 1, held, options)
+  call again%count(n)
+  call both(1)%count(k)
+  call check(n == k, 'as many pieces')
+  call again%get(n, f)
+  call both(1)%get(n, g)
+  call check(f%volume == g%volume .and. f%sphere_count == g%sphere_count, 'the same pieces')
+  packed(30) = ieor(packed(30), 1_c_int8_t)
+  call arrived%deserialize(elsewhere, packed, held, status)
+  call check(status == MORULA_STATUS_FORMAT, 'changed on the way')
+  call cache%clear()
+  call cache%counters(counters)
+  call check(counters%parents == 0 .and. counters%bytes == 0, 'empty')
+  call cache%destroy()
+  call elsewhere%destroy()
 
   ! Two in one step.
   call parents(1)%held(bodies(1), 2600.0_c_double)

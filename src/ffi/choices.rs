@@ -36,6 +36,8 @@ pub const MORULA_STRUCT_HELD: i32 = 16;
 pub const MORULA_STRUCT_FRAGMENT: i32 = 17;
 /// morula_break_totals, for morula_sizeof().
 pub const MORULA_STRUCT_BREAK_TOTALS: i32 = 18;
+/// morula_cache_counts, for morula_sizeof().
+pub const MORULA_STRUCT_CACHE_COUNTS: i32 = 19;
 
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 pub const MORULA_BODIES_REFUSE: i32 = 0;

@@ -208,7 +208,7 @@ macro_rules! filled {
 filled!(
     morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 64,
     morula_counters 112, morula_masses 80, morula_timestep 56,
-    morula_fragment 368, morula_break_totals 48
+    morula_fragment 368, morula_break_totals 48, morula_cache_counts 48
 );
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -240,5 +240,6 @@ mod tests {
         listed::<morula_held>();
         listed::<morula_fragment>();
         listed::<morula_break_totals>();
+        listed::<morula_cache_counts>();
     }
 }

@@ -1,14 +1,14 @@
-//! Breaking particles: parents, and the fragments that take their place.
+//! Breaking parents, and what takes their place.
 
 use super::body::{infeasible_of, objective_of};
 use super::callbacks::{log_notes, run};
 use super::choices::*;
-use super::clump::{half_space_rows, morula_clump, rows};
+use super::clump::{half_space_rows, rows};
 use super::clumps::{give_all, room};
 use super::fragment_structs::*;
-use super::guard::{array_or, borrow, give, guard, require, slice, take};
+use super::guard::{borrow, give, guard, require, slice, take};
 use super::options::{check, fill, init, read, read_all};
-use super::shape::put;
+use super::parent::{checked_spheres, held_struct, morula_parent, state};
 use super::solid::morula_solid;
 use crate::error::{Error, Result, collected, reserve};
 use crate::fragment::{
@@ -16,17 +16,10 @@ use crate::fragment::{
     shatter,
 };
 use crate::generate::each;
-use crate::mass::{Body, MassOptions};
-use crate::math::{Inertia, Sphere, Vec3};
+use crate::mass::MassOptions;
+use crate::math::{Inertia, Vec3};
 use crate::run::Run;
 use std::sync::{Arc, OnceLock};
-
-/// A particle that may break: its solid and the spheres of its clump, with what every break of it
-/// reads. Made once a template by morula_parent_from_solid() or morula_parent_from_clump(), freed
-/// by morula_parent_free(). It needs neither the solid nor the clump any more.
-pub struct morula_parent {
-    pub(super) inner: Arc<Parent>,
-}
 
 /// The fragments of one break, and its dust. Made by morula_parent_break(), morula_parents_break()
 /// or morula_reclump_shape(), freed by morula_fragments_free(). It does not need the handle of its
@@ -42,195 +35,8 @@ pub struct morula_fragments {
 const _: () = {
     // Const functions may run at the same time on one handle.
     const fn shared<T: Send + Sync>() {}
-    shared::<morula_parent>();
     shared::<morula_fragments>();
 };
-
-/// Spheres of the caller's.
-unsafe fn spheres_of(xyzr: *const f64, count: usize, name: &str) -> Result<Vec<Sphere>> {
-    let all = unsafe { rows::<4>(xyzr, count, name)? };
-    collected(name, all.iter().map(|&[x, y, z, r]| Sphere::new(Vec3::new(x, y, z), r)))
-}
-
-pub(super) unsafe fn checked_spheres(
-    xyzr: *const f64,
-    count: usize,
-    name: &str,
-) -> Result<Vec<Sphere>> {
-    let all = unsafe { spheres_of(xyzr, count, name)? };
-    for (i, s) in all.iter().enumerate() {
-        let c = s.center;
-        if !(c.iter().all(|v| v.is_finite()) && s.radius.is_finite()) {
-            return Err(Error::NotFinite(format!(
-                "sphere {i} of {name} is ({}, {}, {}) with radius {}",
-                c.x, c.y, c.z, s.radius
-            )));
-        }
-        if s.radius <= 0.0 {
-            let r = s.radius;
-            return Err(Error::InvalidArgument(format!(
-                "sphere {i} of {name} has the radius {r}, not above 0"
-            )));
-        }
-    }
-    Ok(all)
-}
-
-/// Makes ready for breaks a particle of spheres that were made elsewhere.
-///
-/// Parameters: `xyzr` holds the `count` spheres of its clump in the frame and unit of the shape, x,
-/// y, z and radius each, or none: then fragments fill the solid, and nothing is known of time steps;
-/// `threads` is the number of threads of this call, 0: all cores.
-/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (threads, a radius); NOT_FINITE (a
-/// sphere); MEMORY_LIMIT (of the solid's options); OUT_OF_MEMORY; INTERNAL.
-/// Ownership: inputs stay the caller's and may be freed at once; free *parent with
-/// morula_parent_free(). *parent is written only on success.
-/// Threads: any thread; the solid is only read. The same bytes come out for any number of threads.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn morula_parent_from_solid(
-    solid: *const morula_solid,
-    xyzr: *const f64,
-    count: usize,
-    threads: i32,
-    parent: *mut *mut morula_parent,
-) -> i32 {
-    guard(|| {
-        let solid = unsafe { borrow(solid, "solid")? };
-        require(parent, "parent")?;
-        let spheres = unsafe { checked_spheres(xyzr, count, "xyzr")? };
-        let run = run(threads, None, std::ptr::null_mut())?;
-        let inner = Arc::new(Parent::new(Arc::clone(&solid.inner), &spheres, &run)?);
-        unsafe { give(parent, morula_parent { inner }) };
-        Ok(())
-    })
-}
-
-/// Makes a particle with its clump ready for breaks.
-///
-/// Parameters: `clump` was made of `solid`; `threads` as morula_parent_from_solid().
-/// Returns: as morula_parent_from_solid(); INVALID_ARGUMENT also for a clump of another solid.
-/// Ownership: as morula_parent_from_solid().
-/// Threads: any thread; solid and clump are only read.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn morula_parent_from_clump(
-    solid: *const morula_solid,
-    clump: *const morula_clump,
-    threads: i32,
-    parent: *mut *mut morula_parent,
-) -> i32 {
-    guard(|| {
-        let solid = unsafe { borrow(solid, "solid")? };
-        let clump = unsafe { borrow(clump, "clump")? };
-        require(parent, "parent")?;
-        let (moments, frame) = &clump.target;
-        if (moments, frame) != (solid.inner.unit_moments(), solid.inner.frame()) {
-            return Err(Error::InvalidArgument("the clump was made of another solid".into()));
-        }
-        let run = run(threads, None, std::ptr::null_mut())?;
-        let made = Parent::new(Arc::clone(&solid.inner), &clump.inner.spheres, &run)?;
-        unsafe { give(parent, morula_parent { inner: Arc::new(made) }) };
-        Ok(())
-    })
-}
-
-/// Bytes that a parent holds beside its solid.
-///
-/// Returns: MORULA_STATUS_OK; NULL_POINTER.
-/// Threads: may run at the same time as other const functions on this handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn morula_parent_bytes(parent: *const morula_parent, bytes: *mut u64) -> i32 {
-    guard(|| {
-        let parent = unsafe { borrow(parent, "parent")? };
-        unsafe { put(bytes, parent.inner.bytes(), "bytes") }
-    })
-}
-
-/// Takes a parent back. NULL is ignored; a handle must not be used afterwards.
-/// Threads: no other thread may use the handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn morula_parent_free(parent: *mut morula_parent) {
-    unsafe { take(parent) };
-}
-
-/// Fills a body at rest at the origin, with mass, centre and inertia of 0, to be set by hand.
-///
-/// Parameters: `size` is sizeof *held.
-/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
-/// Threads: any thread.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn morula_held_init(held: *mut morula_held, size: usize) -> i32 {
-    guard(|| unsafe { init(held, size) })
-}
-
-/// The state of a body as a solver holds it.
-unsafe fn state(
-    held: &mut Held,
-    axes: [f64; 4],
-    position: *const f64,
-    quaternion: *const f64,
-    velocity: *const f64,
-    angular_velocity: *const f64,
-) -> Result<()> {
-    let own = |v: Vec3| [v.x, v.y, v.z];
-    unsafe {
-        held.position = array_or(position, own(held.position), "position")?.into();
-        held.velocity = array_or(velocity, own(held.velocity), "velocity")?.into();
-        let spin = own(held.angular_velocity);
-        held.angular_velocity = array_or(angular_velocity, spin, "angular_velocity")?.into();
-        if !quaternion.is_null() {
-            held.turn_to(array_or(quaternion, [0.0; 4], "quaternion")?, axes)?;
-        }
-    }
-    Ok(())
-}
-
-fn held_struct(h: &Held) -> morula_held {
-    morula_held {
-        struct_size: 0,
-        mass: h.mass,
-        centre: h.center.into(),
-        inertia: h.inertia.to_array(),
-        scale: h.scale,
-        position: h.position.into(),
-        quaternion: h.rotation,
-        velocity: h.velocity.into(),
-        angular_velocity: h.angular_velocity.into(),
-    }
-}
-
-/// The body of a whole parent: mass, centre and inertia of its solid, in its place.
-///
-/// Parameters: `density` is mass per (unit of the world)^3; `scale` is what lengths of the shape are
-/// multiplied by; `position` is where the centre is (NULL: where the shape has it, times the
-/// scale); `quaternion` turns the body axes (those of morula_solid_moments()) into the world: w, x,
-/// y, z of any length but 0 (NULL: the shape is not turned); `velocity` and `angular_velocity` hold
-/// three numbers of the world (NULL: 0). `held` is filled: set its struct_size first.
-/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INVALID_ARGUMENT (density or scale not
-/// above 0, a quaternion of 0, a size beyond the numbers).
-/// Threads: may run at the same time as other const functions on this handle.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn morula_parent_held(
-    parent: *const morula_parent,
-    density: f64,
-    scale: f64,
-    position: *const f64,
-    quaternion: *const f64,
-    velocity: *const f64,
-    angular_velocity: *const f64,
-    held: *mut morula_held,
-) -> i32 {
-    guard(|| {
-        let parent = unsafe { borrow(parent, "parent")? };
-        unsafe { check(held)? };
-        let body = Body::of_solid(parent.inner.solid(), density)?;
-        let mut of = Held::of_body(&body, scale)?;
-        let axes = body.principal.quaternion;
-        unsafe {
-            state(&mut of, axes, position, quaternion, velocity, angular_velocity)?;
-            fill(held, &held_struct(&of))
-        }
-    })
-}
 
 /// The body of fragment `index` (from 0) as the solver holds it now, for it to break again.
 ///
@@ -366,7 +172,7 @@ fn run_of<'a>(o: &morula_break_options) -> Result<Run<'a>> {
     })
 }
 
-fn held_of(h: &morula_held) -> Held {
+pub(super) fn held_of(h: &morula_held) -> Held {
     let [xx, yy, zz, xy, xz, yz] = h.inertia;
     Held {
         mass: h.mass,
@@ -424,7 +230,11 @@ impl Broken<'_> {
     }
 }
 
-fn wrap(parent: Arc<Parent>, held: &Held, mut found: Shattered) -> Result<morula_fragments> {
+pub(super) fn wrap(
+    parent: Arc<Parent>,
+    held: &Held,
+    mut found: Shattered,
+) -> Result<morula_fragments> {
     for (i, f) in found.fragments.iter().enumerate() {
         if !f.no_masses.is_empty() {
             found.notes.push(format!("fragment {i} has no masses: {}", f.no_masses));

@@ -3,10 +3,11 @@
 use super::body_read::status_choice;
 use super::choices::*;
 use super::clump_read::stopped_choice;
-use super::fragment::{checked_spheres, morula_fragments};
+use super::fragment::morula_fragments;
 use super::fragment_structs::*;
 use super::guard::{borrow, copy_out, copy_text, guard, require};
 use super::options::{check, fill};
+use super::parent::checked_spheres;
 use super::shape::{give_shape, morula_shape, note, put};
 use crate::error::{Error, Result, collected, reserve};
 use crate::fragment::{Fragment, Moving, grow, grown_radii, shape};
@@ -324,8 +325,8 @@ pub unsafe extern "C" fn morula_fragments_copy_half_spaces(
 
 /// The surface of fragment `index` (from 0) as a shape of its own, in the frame of the shape.
 ///
-/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; UNSUPPORTED (the parent is no closed
-/// mesh); the statuses of morula_shape_from_mesh().
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; UNSUPPORTED (the parent is a mesh that
+/// is open or crosses itself); the statuses of morula_shape_from_mesh().
 /// Ownership: free *shape with morula_shape_free(). *shape is written only on success.
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]

@@ -164,3 +164,21 @@ pub struct morula_break_totals {
     /// much the centres of all of them are shifted.
     pub shift: [f64; 3],
 }
+
+/// What a cache of parents has done, and what it holds.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_cache_counts {
+    /// sizeof(morula_cache_counts), set by the caller.
+    pub struct_size: usize,
+    /// Parents that were there.
+    pub hits: u64,
+    /// Parents that were made.
+    pub misses: u64,
+    /// Parents that had to go, or that were too large to stay.
+    pub evicted: u64,
+    /// Parents that are held.
+    pub parents: u64,
+    /// Bytes of these, with their solids.
+    pub bytes: u64,
+}

@@ -146,6 +146,7 @@ pub(super) fn size_of_struct(which: i32) -> usize {
         MORULA_STRUCT_HELD => size_of::<morula_held>(),
         MORULA_STRUCT_FRAGMENT => size_of::<morula_fragment>(),
         MORULA_STRUCT_BREAK_TOTALS => size_of::<morula_break_totals>(),
+        MORULA_STRUCT_CACHE_COUNTS => size_of::<morula_cache_counts>(),
         _ => 0,
     }
 }

@@ -1,11 +1,19 @@
-//! Shapes and clumps as bytes.
+//! Shapes, clumps and fragments as bytes.
 
 use super::clump::morula_clump;
+use super::fragment::{held_of, morula_fragments, wrap};
+use super::fragment_structs::morula_held;
 use super::guard::{borrow, copy_out, give, guard, require, slice};
+use super::options::read;
+use super::parent::morula_parent;
 use super::shape::morula_shape;
 use crate::error::Result;
+use crate::fragment::restore;
 use crate::run::Counters;
-use crate::serial::{ClumpRecord, shape_from_bytes, shape_to_bytes};
+use crate::serial::{
+    ClumpRecord, fragment_from_bytes, fragment_to_bytes, shape_from_bytes, shape_to_bytes,
+};
+use std::sync::Arc;
 
 /// Copies the bytes and tells how many there are; `bytes` may be NULL with a capacity of 0.
 unsafe fn hand(all: Vec<u8>, capacity: usize, bytes: *mut u8, size: *mut usize) -> Result<()> {
@@ -111,6 +119,57 @@ pub unsafe extern "C" fn morula_clump_deserialize(
             target: (r.moments, r.frame),
         };
         unsafe { give(clump, made) };
+        Ok(())
+    })
+}
+
+/// Writes fragment `index` (from 0) as bytes, as morula_shape_serialize() does a shape: which part of
+/// its first parent it is, and its spheres; 20 spheres make about 1.5 KiB. What the solver holds of it
+/// (morula_held) travels with the solver's own data.
+///
+/// Parameters, returns, threads: as morula_shape_serialize(); INDEX_OUT_OF_RANGE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_fragments_serialize(
+    fragments: *const morula_fragments,
+    index: usize,
+    capacity: usize,
+    bytes: *mut u8,
+    size: *mut usize,
+) -> i32 {
+    guard(|| {
+        let all = unsafe { borrow(fragments, "fragments")? };
+        let f = all.at(index)?;
+        let made = fragment_to_bytes(&all.parent, &f.region, &f.clump.spheres)?;
+        unsafe { hand(made, capacity, bytes, size) }
+    })
+}
+
+/// Makes a fragment again, beside a parent of the same shape and grid: fragment 0 of *fragments, which
+/// can be read, grown and broken as the one that was written. Its spheres are the same to the last bit.
+/// It has no masses of spheres and no map, its coverage, volume_share and step_factor are 0.
+///
+/// Parameters: `held` is the fragment as the solver holds it: what it takes over.
+/// Returns: as morula_shape_deserialize(); INVALID_ARGUMENT (bytes of a fragment of another parent;
+/// the held body); NOT_FINITE and STRUCT_SIZE (the held body).
+/// Ownership: inputs are copied; free *fragments with morula_fragments_free(). *fragments is written
+/// only on success.
+/// Threads: any thread; the parent is only read.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn morula_fragments_deserialize(
+    parent: *const morula_parent,
+    bytes: *const u8,
+    size: usize,
+    held: *const morula_held,
+    fragments: *mut *mut morula_fragments,
+) -> i32 {
+    guard(|| {
+        let parent = &unsafe { borrow(parent, "parent")? }.inner;
+        require(held, "held")?;
+        require(fragments, "fragments")?;
+        let held = held_of(&unsafe { read(held)? });
+        let record = fragment_from_bytes(parent, unsafe { slice(bytes, size, "bytes")? })?;
+        let found = restore(parent, record.region, record.spheres, &held)?;
+        unsafe { give(fragments, wrap(Arc::clone(parent), &held, found)?) };
         Ok(())
     })
 }

@@ -46,5 +46,7 @@ pub use parent::Parent;
 pub use reclump::{Reclump, ReclumpOptions, reclump};
 pub use region::Region;
 pub use reshape::reshape;
-pub use shatter::{Crumb, Fragment, Job, ShatterOptions, Shattered, shatter, shatter_many};
+pub use shatter::{
+    Crumb, Fragment, Job, ShatterOptions, Shattered, restore, shatter, shatter_many,
+};
 pub use union::Union;

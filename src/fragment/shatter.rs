@@ -4,11 +4,12 @@
 use super::cut::{CutOptions, Dust, cut, cut_region};
 use super::motion::{Held, Moving};
 use super::reclump::{Reclump, ReclumpOptions, reclump};
-use super::{Cut, Parent, Region};
+use super::{Cut, Parent, ParentMap, Region};
+use crate::clump::Stopped;
 use crate::error::{Error, Result, count, push, reserve};
 use crate::generate::each;
 use crate::mass::{Body, MassOptions, Masses, correct};
-use crate::math::PrincipalFrame;
+use crate::math::{PrincipalFrame, Sphere};
 use crate::run::Run;
 
 /// What is asked of a break.
@@ -182,6 +183,40 @@ fn body(m: &Moving, volume: f64, scale: f64) -> Body {
         principal: PrincipalFrame { moments, ..m.principal },
         relative_error: 0.0,
     }
+}
+
+/// A fragment that was handed on: its part of the first parent, its spheres (frame and unit of the
+/// shape), and the body as the solver holds it now, which it takes over whole. It has no masses, map
+/// or quality. Errors: those of [`Held::hand_over`].
+pub fn restore(
+    parent: &Parent,
+    region: Region,
+    spheres: Vec<Sphere>,
+    held: &Held,
+) -> Result<Shattered> {
+    let frame = parent.solid().frame();
+    let over = held.hand_over(&[region.moments(frame)], frame.noise())?;
+    let missing = || Error::Internal("a piece is missing".into());
+    let moving = *over.pieces.first().ok_or_else(missing)?;
+    let clump = Reclump {
+        stopped: Stopped::Exhausted,
+        map: ParentMap::between(&[], &spheres)?,
+        coverage: 0.0,
+        volume_share: 0.0,
+        step_factor: None,
+        spheres,
+    };
+    let fragment = Fragment { region, clump, moving, masses: None, no_masses: String::new() };
+    let mut fragments = reserve("fragments", 1)?;
+    fragments.push(fragment);
+    Ok(Shattered {
+        fragments,
+        dust: Vec::new(),
+        energy: over.energy,
+        inertia_error: over.inertia,
+        shift: over.shift,
+        notes: Vec::new(),
+    })
 }
 
 /// Many breaks of one time step, in this order, side by side; each is, byte for byte, what a call
