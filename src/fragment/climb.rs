@@ -4,7 +4,7 @@
 //! soft by a spacing of the points, so that small steps are told apart.
 
 use super::cloud::{Cloud, bits};
-use super::room::{Ball, Room};
+use super::room::{Ball, Room, along, dot, times};
 use super::spread::Random;
 use crate::error::{Result, filled, reserve};
 use wide::f32x8;
@@ -78,11 +78,12 @@ impl<'a> Climb<'a> {
         let reach2 = f32x8::splat(about.radius * about.radius);
         self.points.clear();
         self.others.clear();
-        let others = self.balls.iter().enumerate().filter(|(j, o)| {
+        for (j, o) in self.balls.iter().enumerate() {
             let reach = about.radius + o.radius + half;
-            *j != i && o.apart(&about.center) < reach * reach
-        });
-        self.others.extend(others.map(|(_, o)| *o));
+            if j != i && o.apart(&about.center) < reach * reach {
+                self.others.push(*o);
+            }
+        }
         let (mut stage, mut filled) = ([[0.0f32; 8]; 4], 0);
         for (group, chunks) in self.cloud.groups.iter().zip(self.cloud.chunks.chunks(8)) {
             let (mut met, _) = group.meets(about, 0.0);
@@ -100,7 +101,11 @@ impl<'a> Climb<'a> {
             for k in bits(met) {
                 let Some(chunk) = chunks.get(k) else { continue };
                 self.here.clear();
-                self.here.extend(self.cuts.iter().filter(|c| c.1 >> k & 1 == 1).map(|c| c.0));
+                for (o, some) in &self.cuts {
+                    if some >> k & 1 == 1 {
+                        self.here.push(*o);
+                    }
+                }
                 for p in &chunk.points {
                     let (x, y) = (p[0] - about.center[0], p[1] - about.center[1]);
                     let z = p[2] - about.center[2];
@@ -114,11 +119,12 @@ impl<'a> Climb<'a> {
                     }
                     let kept = near & covered.simd_lt(f32x8::splat(1.0));
                     for lane in bits(kept.to_bitmask()) {
-                        let from = [p[0], p[1], p[2], covered].map(|v| v.as_array()[lane & 7]);
-                        (0..4).for_each(|a| stage[a][filled] = from[a]);
+                        for (to, from) in stage.iter_mut().zip([&p[0], &p[1], &p[2], &covered]) {
+                            to[filled & 7] = from.as_array()[lane & 7];
+                        }
                         filled += 1;
                         if filled == 8 {
-                            self.points.push(stage.map(f32x8::new));
+                            self.points.push(lanes(&stage));
                             filled = 0;
                         }
                     }
@@ -128,7 +134,7 @@ impl<'a> Climb<'a> {
         if filled > 0 {
             // The others are covered.
             stage[3][filled..].fill(1.0);
-            self.points.push(stage.map(f32x8::new));
+            self.points.push(lanes(&stage));
         }
     }
 
@@ -160,9 +166,9 @@ impl<'a> Climb<'a> {
         }
         let (_, out) = self.room.depth(&ball.center);
         let count = count.reduce_add() * ball.radius;
-        let way = [0, 1, 2].map(|a| sum[a].reduce_add() - count * out[a]);
-        let norm = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
-        way.map(|x| x / norm.max(f32::MIN_POSITIVE))
+        let sum = [sum[0].reduce_add(), sum[1].reduce_add(), sum[2].reduce_add()];
+        let way = along(&sum, -count, &out);
+        times(&way, 1.0 / dot(&way, &way).sqrt().max(f32::MIN_POSITIVE))
     }
 
     fn step(&mut self, i: usize, visit: &Visit, random: &mut Random) {
@@ -177,8 +183,8 @@ impl<'a> Climb<'a> {
             let weight = random.unit();
             let any = random.direction();
             let length = step * old.radius;
-            let to = [0, 1, 2]
-                .map(|a| ball.center[a] + length * (weight * way[a] + (1.0 - weight) * any[a]));
+            let to = along(&times(&any, 1.0 - weight), weight, &way);
+            let to = along(&ball.center, length, &to);
             let new = if random.unit() < GROWN { self.room.grown(to) } else { self.room.ball(to) };
             let moved = old.apart(&new.center).sqrt();
             // No farther than what is gathered, and than what the ball itself shows to be within.
@@ -199,6 +205,12 @@ impl<'a> Climb<'a> {
         self.steps[i] = (step * LONGER).clamp(2.0 * LEAST, FIRST);
         self.balls[i] = ball;
     }
+}
+
+#[inline(always)]
+fn lanes(stage: &[[f32; 8]; 4]) -> [f32x8; 4] {
+    let [x, y, z, covered] = *stage;
+    [f32x8::new(x), f32x8::new(y), f32x8::new(z), f32x8::new(covered)]
 }
 
 /// A ball with a soft border: how much it covers is `from − by d²`, from 0 to 1.

@@ -1,7 +1,7 @@
 //! Points of a fragment, spread evenly, and what balls hold of them: 64 to a chunk, chunks small in
 //! space, so that most are within a ball or without at a glance.
 
-use super::room::Ball;
+use super::room::{Ball, along, times};
 use crate::error::{Result, filled, push, reserve};
 use wide::f32x8;
 
@@ -24,13 +24,12 @@ pub(super) struct Group {
 
 impl Group {
     fn of(some: &[[[f32; 3]; 2]]) -> Group {
-        let lanes = |f: &dyn Fn(&[[f32; 3]; 2]) -> f32, none: f32| {
-            f32x8::new(std::array::from_fn(|l| some.get(l).map_or(none, f)))
-        };
-        Group {
-            center: std::array::from_fn(|a| lanes(&|c| c[0][a], NOWHERE)),
-            reach: lanes(&|c| c[1][0], 0.0),
+        let mut reach = [0.0; 8];
+        for (to, [_, [r, ..]]) in reach.iter_mut().zip(some) {
+            *to = *r;
         }
+        let centers = some.iter().map(|[c, _]| c);
+        Group { center: eight(centers), reach: f32x8::new(reach) }
     }
 
     /// Which chunks a ball may hold some of, and which it holds all of; `soft`: half the width of
@@ -50,6 +49,17 @@ impl Group {
     }
 }
 
+/// Up to eight points by coordinates.
+#[inline(always)]
+fn eight<'a>(points: impl Iterator<Item = &'a [f32; 3]>) -> [f32x8; 3] {
+    let mut out = [[NOWHERE; 8]; 3];
+    for (l, p) in points.take(8).enumerate() {
+        (out[0][l], out[1][l], out[2][l]) = (p[0], p[1], p[2]);
+    }
+    let [x, y, z] = out;
+    [f32x8::new(x), f32x8::new(y), f32x8::new(z)]
+}
+
 /// The numbers of the bits of a mask.
 #[inline(always)]
 pub(super) fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
@@ -63,22 +73,33 @@ pub(super) fn bits(mut mask: u32) -> impl Iterator<Item = usize> {
 /// Middle and reach of some points.
 fn about(some: &[[f32; 3]]) -> [[f32; 3]; 2] {
     let mut sum = [0.0f32; 3];
-    some.iter().for_each(|p| (0..3).for_each(|a| sum[a] += p[a]));
-    let center = sum.map(|s| s / some.len().max(1) as f32);
+    for p in some {
+        sum = along(&sum, 1.0, p);
+    }
+    let center = times(&sum, 1.0 / some.len().max(1) as f32);
     let ball = Ball { center, radius: 0.0 };
-    let reach = some.iter().map(|p| ball.apart(p)).fold(0.0f32, f32::max).sqrt();
+    let mut reach = 0.0f32;
+    for p in some {
+        reach = reach.max(ball.apart(p));
+    }
+    let reach = reach.sqrt();
     [center, [reach * 1.00001 + f32::MIN_POSITIVE; 3]]
 }
 
 impl Chunk {
     fn of(some: &[[f32; 3]]) -> Chunk {
-        let at = |i: usize, a: usize| some.get(i).map_or(NOWHERE, |p| p[a]);
-        let lanes = |k: usize, a: usize| f32x8::new(std::array::from_fn(|l| at(8 * k + l, a)));
-        Chunk { points: std::array::from_fn(|k| std::array::from_fn(|a| lanes(k, a))) }
+        let mut points = [[f32x8::splat(NOWHERE); 3]; 8];
+        for (to, some) in points.iter_mut().zip(some.chunks(8)) {
+            *to = eight(some.iter());
+        }
+        Chunk { points }
     }
 
+    #[inline]
     fn point(&self, i: usize) -> [f32; 3] {
-        self.points[i >> 3 & 7].map(|lanes| lanes.as_array()[i & 7])
+        let [x, y, z] = &self.points[i >> 3 & 7];
+        let of = |lanes: &f32x8| lanes.as_array()[i & 7];
+        [of(x), of(y), of(z)]
     }
 
     #[inline]
@@ -139,9 +160,10 @@ impl Cloud {
         }
         let mut rest = reserve("points", count)?;
         for (chunk, left) in self.chunks.iter().zip(&self.left) {
-            let halves = [(0, *left as u32), (32, (left >> 32) as u32)];
-            for (from, half) in halves {
-                rest.extend(bits(half).map(|k| chunk.point(from + k)));
+            for (from, half) in [(0, *left as u32), (32, (left >> 32) as u32)] {
+                for k in bits(half) {
+                    rest.push(chunk.point(from + k));
+                }
             }
         }
         Cloud::of_sorted(&rest).map(Some)
@@ -186,8 +208,14 @@ fn sorted(points: &[[f32; 3]], half: [f32; 3]) -> Result<Vec<[f32; 3]>> {
         (spread(of(0)) | spread(of(1)) << 1 | spread(of(2)) << 2) as usize
     };
     let mut starts = [0u32; (CELLS * CELLS * CELLS) as usize + 1];
-    points.iter().for_each(|p| starts[cell(p) + 1] += 1);
-    (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
+    for p in points {
+        starts[cell(p) + 1] += 1;
+    }
+    let mut sum = 0;
+    for start in &mut starts {
+        sum += *start;
+        *start = sum;
+    }
     let mut out = filled("points", points.len(), [0.0; 3])?;
     for p in points {
         let to = &mut starts[cell(p)];

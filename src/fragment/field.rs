@@ -149,11 +149,12 @@ impl<'a> Lookup<'a> {
     #[inline]
     fn nearest(&self, p: &[f32; 3]) -> i16 {
         let strides = [1, self.row, self.layer];
-        let at = [0, 1, 2].map(|a| {
+        let mut at = 0;
+        for a in 0..3 {
             let u = ((p[a] - self.origin[a]) * self.inverse[a]).max(0.0).min(self.last[a]);
-            (u + 0.5) as u32 as usize * strides[a]
-        });
-        self.cells.get(at[0] + at[1] + at[2]).map_or(0, |c| c[0])
+            at += (u + 0.5) as u32 as usize * strides[a];
+        }
+        self.cells.get(at).map_or(0, |c| c[0])
     }
 
     /// Whether the nearest cell's centre is inside.
@@ -188,19 +189,12 @@ impl<'a> Lookup<'a> {
         let before = x.wrapping_sub((self.edges[0] + 0.5) as i32 as i16);
         let here = i16x8::new([ONE as i16, x, y, z, ONE as i16, before, y, z]);
         let up = here - self.next[1];
-        let rows = [
-            (&cells[..2], here),
-            (&cells[self.row..self.row + 2], here - self.next[0]),
-            (&cells[self.layer..self.layer + 2], up),
-            (&cells[self.layer + self.row..], up - self.next[0]),
-        ];
-        let sums = rows.map(|(pair, to)| {
-            let mut both = [0; 8];
-            both.copy_from_slice(pair.as_flattened());
-            i16x8::new(both).dot(to).to_array()
-        });
+        let starts = [0, self.row, self.layer, self.layer + self.row];
+        let a = products(cells, starts[0], here);
+        let b = products(cells, starts[1], here - self.next[0]);
+        let c = products(cells, starts[2], up);
+        let d = products(cells, starts[3], up - self.next[0]);
         // The last bits are nothing, and hold the number of the cell.
-        let [a, b, c, d] = sums;
         let low = i32x4::new([a[0], a[2], b[0], b[2]]) + i32x4::new([a[1], a[3], b[1], b[3]]);
         let high = i32x4::new([c[0], c[2], d[0], d[2]]) + i32x4::new([c[1], c[3], d[1], d[3]]);
         let clear = i32x4::splat(!7);
@@ -209,10 +203,20 @@ impl<'a> Lookup<'a> {
         let [p, q, r, s] = low.min(high).to_array();
         let least = p.min(q).min(r.min(s));
         let which = (least & 7) as usize;
-        let way = rows[which >> 1].0[which & 1];
-        let [_, x, y, z] = way.map(|w| f32::from(w) * (1.0 / ONE));
-        (least as f32 * self.unit, [x, y, z])
+        let [_, x, y, z] = cells[starts[which >> 1] + (which & 1)];
+        let part = |w: i16| f32::from(w) * (1.0 / ONE);
+        (least as f32 * self.unit, [part(x), part(y), part(z)])
     }
+}
+
+/// Of two cells, each times four numbers: the sums of the first two and of the last two products.
+#[inline(always)]
+fn products(cells: &[Cell], at: usize, by: i16x8) -> [i32; 4] {
+    let Some(&[[a, b, c, d], [e, f, g, h]]) = cells.get(at..).and_then(|c| c.first_chunk::<2>())
+    else {
+        return [0; 4];
+    };
+    i16x8::new([a, b, c, d, e, f, g, h]).dot(by).to_array()
 }
 
 #[cfg(test)]

@@ -39,6 +39,25 @@ impl Ball {
     }
 }
 
+// `array::map` is not inlined where code is made in several units: what is called for every place
+// is written out.
+
+/// A place some way on.
+#[inline(always)]
+pub(super) fn along(p: &[f32; 3], t: f32, way: &[f32; 3]) -> [f32; 3] {
+    [p[0] + t * way[0], p[1] + t * way[1], p[2] + t * way[2]]
+}
+
+#[inline(always)]
+pub(super) fn dot(a: &[f32; 3], b: &[f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+#[inline(always)]
+pub(super) fn times(a: &[f32; 3], by: f32) -> [f32; 3] {
+    [a[0] * by, a[1] * by, a[2] * by]
+}
+
 /// A half-space, unit frame: normal · p ≤ offset, the normal of length 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wall {
@@ -107,8 +126,9 @@ impl<'a> Room<'a> {
         })
     }
 
+    #[inline]
     pub(super) fn global(&self, p: &[f32; 3]) -> Vec3 {
-        self.middle + Vec3::from(p.map(f64::from))
+        self.middle + Vec3::new(f64::from(p[0]), f64::from(p[1]), f64::from(p[2]))
     }
 
     /// The depth at a place, nearly, and the way in which it falls fastest.
@@ -120,7 +140,7 @@ impl<'a> Room<'a> {
         }
         let (own, way) = if self.exact { self.signed(p, depth) } else { self.lookup.at(p) };
         if own < depth {
-            (depth, out) = (own, way.map(|x| -x));
+            (depth, out) = (own, times(&way, -1.0));
         }
         (depth - self.parts.less as f32, out)
     }
@@ -136,7 +156,8 @@ impl<'a> Room<'a> {
             if least < found.0 {
                 let lane =
                     below.simd_eq(f32x8::splat(least)).to_bitmask().trailing_zeros() as usize;
-                found = (least, [x, y, z].map(|n| n.as_array()[lane & 7]));
+                let of = |n: &f32x8| n.as_array()[lane & 7];
+                found = (least, [of(x), of(y), of(z)]);
             }
         }
         found
@@ -185,12 +206,12 @@ impl<'a> Room<'a> {
     pub(super) fn grown(&self, p: [f32; 3]) -> Ball {
         let (depth, out) = self.depth(&p);
         let still = Ball { center: p, radius: depth.max(0.0) };
-        let norm = (out[0] * out[0] + out[1] * out[1] + out[2] * out[2]).sqrt();
+        let norm = dot(&out, &out).sqrt();
         if norm < 0.1 || depth <= 0.0 {
             return still;
         }
-        let way = out.map(|x| -x / norm);
-        let at = |t: f32| [p[0] + t * way[0], p[1] + t * way[1], p[2] + t * way[2]];
+        let way = times(&out, -1.0 / norm);
+        let at = |t: f32| along(&p, t, &way);
         let slack = self.slack.min(0.05 * depth);
         // What hinders the ball is nearly flat: from a place too far on, back to where a plane with
         // the slope found there would let it be, as Newton's method does.
@@ -205,7 +226,7 @@ impl<'a> Room<'a> {
                 break;
             }
             // How much less the depth grows there than the way.
-            let less = 1.0 + out[0] * way[0] + out[1] * way[1] + out[2] * way[2];
+            let less = 1.0 + dot(&out, &way);
             let back = high - (missing + 0.5 * slack) / less.max(0.05);
             if back <= 0.02 * depth {
                 break;

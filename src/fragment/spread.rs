@@ -1,7 +1,7 @@
 //! Points spread evenly over a fragment: a lattice turned so that it lies along nothing, as dense as
 //! the volume asks for, line by line and each line cut by the half-spaces first.
 
-use super::room::Room;
+use super::room::{Room, along, dot, times};
 use crate::error::{Result, push, reserve};
 use crate::math::Vec3;
 
@@ -36,11 +36,11 @@ impl Random {
     #[inline]
     pub(super) fn direction(&mut self) -> [f32; 3] {
         loop {
-            let d = [0; 3].map(|_| 2.0 * self.unit() - 1.0);
-            let square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+            let (x, y, z) = (self.unit(), self.unit(), self.unit());
+            let d = [2.0 * x - 1.0, 2.0 * y - 1.0, 2.0 * z - 1.0];
+            let square = dot(&d, &d);
             if square <= 1.0 && square > 1e-4 {
-                let by = 1.0 / square.sqrt();
-                return d.map(|x| x * by);
+                return times(&d, 1.0 / square.sqrt());
             }
         }
     }
@@ -74,14 +74,14 @@ pub(super) fn spread(
             let b = (j as f32 + (phase[2] + shift).fract()) * step - reach[2];
             for i in 0..count[0] {
                 let a = (i as f32 + (phase[1] + shift).fract()) * step - reach[1];
-                let base = [0, 1, 2].map(|k| a * AXES[1][k] + b * AXES[2][k]);
+                let base = along(&times(&AXES[1], a), b, &AXES[2]);
                 let Some([from, to]) = piece(&base, &AXES[0], room.walls(), half, reach[0]) else {
                     continue;
                 };
                 let first = (from / step - phase[0] - shift).ceil() + phase[0] + shift;
                 let mut t = first * step;
                 while t < to && out.len() < 2 * wanted {
-                    let p = [0, 1, 2].map(|k| base[k] + t * AXES[0][k]);
+                    let p = along(&base, t, &AXES[0]);
                     t += step;
                     if room.open(&p) && holds(&room.global(&p)) {
                         push("points", &mut out, p)?;
@@ -103,8 +103,8 @@ fn piece(
 ) -> Option<[f32; 2]> {
     let (mut from, mut to) = (-reach, reach);
     let mut clip = |n: [f32; 3], offset: f32| {
-        let along = n[0] * way[0] + n[1] * way[1] + n[2] * way[2];
-        let room = offset - (n[0] * base[0] + n[1] * base[1] + n[2] * base[2]);
+        let along = dot(&n, way);
+        let room = offset - dot(&n, base);
         if along.abs() < 1e-9 {
             if room < 0.0 {
                 to = from;
