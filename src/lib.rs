@@ -5,16 +5,17 @@
 //! [`shape`] (what the user hands in) → [`solid`] (signed distance and exact
 //! moments) → [`measure`] (how far a clump is from its solid) → [`clump`] (the
 //! result) → [`generate`] (the methods that make it) and [`mass`] (what a solver
-//! takes of it) → [`fragment`] (pieces of a solid that breaks), `export` (files that
+//! takes of it) → [`cost`] (what accuracy costs in time), [`fragment`] (pieces of a solid that breaks), `export` (files that
 //! DEM codes read; with the feature `io`) and [`serial`] (bytes for another rank or a
-//! restart). A module imports only from those before it, `mass` not from `generate` and
-//! `export` not from `fragment`.
+//! restart). A module imports only from those before it, `mass` not from `generate`, nor
+//! `fragment` and `export` from `cost`, nor `export` from `fragment`.
 //! [`ffi`] is the C ABI and the only `unsafe`.
 //!
 //! The library is unit-free: lengths are in the caller's unit, moments are per
 //! unit density, and a density is mass per (that length)³.
 
 pub mod clump;
+pub mod cost;
 pub mod error;
 #[cfg(feature = "io")]
 pub mod export;

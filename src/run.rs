@@ -174,7 +174,7 @@ pub struct Run<'a> {
     pool: Pool,
     seed: u64,
     started: Instant,
-    deadline: Option<Instant>,
+    deadline: Cell<Option<Instant>>,
     progress: RefCell<Option<Progress<'a>>>,
     fraction: Cell<f64>,
     /// Where the work's own fractions 0 and 1 lie in the whole.
@@ -195,7 +195,7 @@ impl RunPart {
     /// A run of a part, on the thread that asks.
     pub(crate) fn run(self) -> Run<'static> {
         let RunPart { seed, started, deadline } = self;
-        Run { seed, started, deadline, ..Run::serial() }
+        Run { seed, started, deadline: Cell::new(deadline), ..Run::serial() }
     }
 }
 
@@ -221,7 +221,7 @@ impl<'a> Run<'a> {
             pool: Pool::serial(),
             seed: 0,
             started: Instant::now(),
-            deadline: None,
+            deadline: Cell::new(None),
             progress: RefCell::new(None),
             fraction: Cell::new(0.0),
             span: Cell::new([0.0, 1.0]),
@@ -238,9 +238,9 @@ impl<'a> Run<'a> {
 
     /// Sets the deadline, in seconds from now; it only decides between fixed
     /// checkpoints. Not finite or absurdly far means none.
-    pub fn with_deadline(mut self, seconds: f64) -> Self {
-        self.deadline =
-            Duration::try_from_secs_f64(seconds).ok().and_then(|d| self.started.checked_add(d));
+    pub fn with_deadline(self, seconds: f64) -> Self {
+        let after = Duration::try_from_secs_f64(seconds).ok();
+        self.deadline.set(after.and_then(|d| self.started.checked_add(d)));
         self
     }
 
@@ -253,7 +253,7 @@ impl<'a> Run<'a> {
     /// A part of the work on one thread, with the same seed and deadline and counters of its own.
     /// It tells no progress: that is called on the thread of the whole alone.
     pub(crate) fn part(&self) -> RunPart {
-        RunPart { seed: self.seed, started: self.started, deadline: self.deadline }
+        RunPart { seed: self.seed, started: self.started, deadline: self.deadline.get() }
     }
 
     /// The threads.
@@ -272,6 +272,18 @@ impl<'a> Run<'a> {
         self.span.set(span.map(|f| outer[0] + (outer[1] - outer[0]) * f));
         let result = work();
         self.span.set(outer);
+        result
+    }
+
+    /// Does a piece of work with a deadline of its own, so many seconds from now, or the whole's
+    /// where that is earlier; 0: none of its own.
+    pub(crate) fn in_seconds<T>(&self, seconds: f64, work: impl FnOnce() -> T) -> T {
+        let outer = self.deadline.get();
+        let own = Duration::try_from_secs_f64(seconds).ok().filter(|d| !d.is_zero());
+        let own = own.and_then(|d| Instant::now().checked_add(d));
+        self.deadline.set(own.map(|own| outer.map_or(own, |o| o.min(own))).or(outer));
+        let result = work();
+        self.deadline.set(outer);
         result
     }
 
@@ -310,12 +322,12 @@ impl<'a> Run<'a> {
 
     /// Whether a deadline or the caller can end the work.
     pub fn can_stop(&self) -> bool {
-        self.deadline.is_some() || self.progress.try_borrow().map_or(true, |p| p.is_some())
+        self.deadline.get().is_some() || self.progress.try_borrow().map_or(true, |p| p.is_some())
     }
 
     /// Whether the deadline has passed.
     pub fn late(&self) -> bool {
-        self.deadline.is_some_and(|d| Instant::now() >= d)
+        self.deadline.get().is_some_and(|d| Instant::now() >= d)
     }
 
     /// Times `work` under `stage`. Nested stages count twice: keep them apart.

@@ -137,7 +137,7 @@ fn unsafe_lives_in_the_c_border_alone() {
 }
 
 /// The rooms in the order of the data, each with what stands above it.
-const ROOMS: [(&str, &[&str]); 11] = [
+const ROOMS: [(&str, &[&str]); 12] = [
     ("error", &[]),
     ("math", &["error"]),
     ("run", &["error", "math"]),
@@ -147,6 +147,7 @@ const ROOMS: [(&str, &[&str]); 11] = [
     ("clump", &["error", "math", "run", "shape", "solid", "measure"]),
     ("generate", &["error", "math", "run", "shape", "solid", "measure", "clump"]),
     ("mass", &["error", "math", "run", "shape", "solid", "measure", "clump"]),
+    ("cost", &["error", "math", "run", "shape", "solid", "measure", "clump", "generate", "mass"]),
     (
         "fragment",
         &["error", "math", "run", "shape", "solid", "measure", "clump", "generate", "mass"],

@@ -11,6 +11,7 @@ mod many;
 pub mod mss;
 mod packed;
 mod select;
+mod series;
 mod surface_fit;
 
 use crate::clump::{Clump, Stopped};
@@ -25,6 +26,8 @@ pub use best::{BestOptions, Effort, HalfSpace, Symmetry};
 pub use cover::CoverOptions;
 pub use many::{batch, batch_labels, levels};
 pub(crate) use many::{each, each_label};
+pub use series::Levels;
+pub(crate) use series::Series;
 
 /// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -26,13 +26,7 @@ pub(in crate::generate) fn make(
     run: &Run,
 ) -> Result<Clump> {
     super::check(options)?;
-    let ball = (0.75 / std::f64::consts::PI * solid.unit_moments().volume).cbrt();
-    if options.min_radius / solid.frame().scale > ball {
-        return Err(Error::NoSpheres(format!(
-            "a single sphere with a radius of {} or more has more volume than the body",
-            figure(options.min_radius)
-        )));
-    }
+    fits(solid, options)?;
     let search = Search { solid, options, run, kept: RefCell::default() };
     let found = match (options.spheres, options.mismatch) {
         (0, 0.0) => search.most(),
@@ -48,6 +42,18 @@ pub(in crate::generate) fn make(
         }
         (found, _) => found,
     }
+}
+
+/// Refuses a least radius that no sphere can have.
+pub(in crate::generate) fn fits(solid: &Solid, options: &GenerateOptions) -> Result<()> {
+    let ball = (0.75 / std::f64::consts::PI * solid.unit_moments().volume).cbrt();
+    if options.min_radius / solid.frame().scale > ball {
+        return Err(Error::NoSpheres(format!(
+            "a single sphere with a radius of {} or more has more volume than the body",
+            figure(options.min_radius)
+        )));
+    }
+    Ok(())
 }
 
 struct Search<'a, 'r> {

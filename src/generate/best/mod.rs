@@ -11,6 +11,7 @@ mod effort;
 pub(super) mod fewest;
 mod finish;
 mod limits;
+pub(super) mod memory;
 mod moves;
 mod options;
 mod refine;
@@ -35,6 +36,7 @@ use crate::generate::balls::smooth::Smooth;
 use crate::run::Run;
 use crate::solid::Solid;
 use limits::{Exact, Limits};
+use memory::Memory;
 use refine::Radii;
 use search::{BATCH, Search};
 use start::Start;
@@ -51,13 +53,39 @@ const LAST: usize = 50;
 
 /// Makes a clump.
 fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
+    after(solid, options, &mut Memory::default(), run)
+}
+
+/// Makes the field that all levels of these options share, but for [`Effort::Draft`], of which each
+/// level has its own.
+pub(super) fn prepare(
+    solid: &Solid,
+    options: &GenerateOptions,
+    memory: &mut Memory,
+    run: &Run,
+) -> Result<()> {
+    if options.effort != Effort::Draft {
+        let planes = limits::planes(&options.best, solid.frame());
+        memory.field(solid, &planes, options.effort.plan(options.spheres).cells, run)?;
+    }
+    Ok(())
+}
+
+/// Makes a clump, with what is remembered of one before.
+pub(super) fn after(
+    solid: &Solid,
+    options: &GenerateOptions,
+    memory: &mut Memory,
+    run: &Run,
+) -> Result<Clump> {
     let wanted = check(options)?;
     run.check(0.0, "measuring the distances of cells")?;
     let (frame, asked) = (solid.frame(), &options.best);
     let planes = limits::planes(asked, frame);
     let plan = options.effort.plan(wanted);
-    let (field, cells) = target::field(solid, &planes, plan.cells, run)?;
-    let choices = symmetry::choices(solid, &field, asked, &planes, wanted)?;
+    let (before, overshoot) = memory.start(wanted, asked);
+    let (field, cells) = memory.field(solid, &planes, plan.cells, run)?;
+    let choices = symmetry::choices(solid, field, asked, &planes, wanted)?;
     let n = choices.first().map_or(wanted, |s| s.most(wanted));
     let columns = choices.first().map_or(plan.columns, |s| s.columns(plan.columns));
     let (dexels, volume) = target::dexels(solid, &planes, cells, columns, run)?;
@@ -84,9 +112,8 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let limits = Limits::new(&planes, protrusion);
     let least = 0.5 * f64::from(radii.least) * frame.scale;
     let exact = Exact::new(solid, asked, [options.min_radius, least], run)?;
-    let overshoot = asked.overshoot_weight;
     let ground = Ground {
-        field: &field,
+        field,
         dexels: &dexels,
         radii,
         limits: &limits,
@@ -111,12 +138,15 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     let smooth = if asked.smoothness > 0.0 {
         let (grid, seed) = (solid.grid(), run.seed());
         let room = ground.room.saturating_sub(later);
-        Some(Smooth::new(asked.smoothness, grid, (&field, &dexels), (n, volume), seed, room)?)
+        Some(Smooth::new(asked.smoothness, grid, (field, &dexels), (n, volume), seed, room)?)
     } else {
         None
     };
     let start = Start { ground, plan, n, seed: run.seed(), pool: run.pool() };
-    let mut state = start.best(&choices, smooth, &mut look, &mut go)?;
+    let mut state = match &before {
+        Some((balls, fixed)) => start.after(balls, *fixed, smooth, &mut look, &mut go)?,
+        None => start.best(&choices, smooth, &mut look, &mut go)?,
+    };
     state.join(&mut look, &watch)?;
     let mut peak = state.bytes();
     let mut search = Search::new(&mut state, run.seed(), run.pool(), &watch, plan.around);
@@ -161,6 +191,8 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     if spheres.len() < n && stopped == Stopped::Spheres {
         stopped = Stopped::Exhausted;
     }
+    let balls = state.balls;
+    memory.keep(balls);
     Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
 }
 

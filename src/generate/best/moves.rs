@@ -189,7 +189,11 @@ impl<'a> Mover<'a> {
         let mut near: Vec<(f32, u32)> = Vec::new();
         for (j, b) in (0u32..).zip(&self.trial) {
             let lead = self.orbits.lead(j);
-            if !of.contains(&lead) && b.radius <= largest && places.iter().any(|p| b.meets(p, 0.0))
+            let free = j as usize >= state.fixed;
+            if free
+                && !of.contains(&lead)
+                && b.radius <= largest
+                && places.iter().any(|p| b.meets(p, 0.0))
             {
                 // How far apart the surfaces are.
                 let gap = |x: &Ball| b.apart(x).sqrt() - b.radius - x.radius;

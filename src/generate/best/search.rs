@@ -110,10 +110,11 @@ impl<'s, 'a> Search<'s, 'a> {
         let n = state.balls.len();
         let mut best = (f64::MAX, 0);
         if self.random.unit() >= CHEAPEST {
-            best.1 = state.orbits.lead(self.random.below(n) as u32) as usize;
+            let i = state.fixed + self.random.below(n - state.fixed);
+            best.1 = state.orbits.lead(i as u32) as usize;
         } else {
             let least = 1e-3 * state.left() / n as f64;
-            for i in (0..n).filter(|&i| state.orbits.lead(i as u32) as usize == i) {
+            for i in (state.fixed..n).filter(|&i| state.orbits.lead(i as u32) as usize == i) {
                 let worth = state.worth(i).max(least);
                 let key =
                     worth * (1.0 + 0.5 * f64::from(state.tried[i])) * self.random.between(0.7, 1.3);
@@ -176,7 +177,7 @@ impl<'s, 'a> Search<'s, 'a> {
     ) -> Vec<Ball> {
         let state = &*self.state;
         let mut balls = state.balls.clone();
-        let all = state.orbits.leads(balls.len());
+        let all = state.free();
         let task = state.ground.task(directions, weights, &state.orbits, state.pull());
         let schedule = Schedule { iterations, from: from * state.width, to: to * state.width };
         let shared = (all.len() * directions.len() >= SHARED).then_some(self.pool);

@@ -27,6 +27,17 @@ pub(super) fn seeds(
     n: usize,
     random: &mut Random,
 ) -> Result<Vec<Ball>> {
+    more(ground, plan, &[], n, random)
+}
+
+/// `n` balls, of which those `before` are the first.
+pub(super) fn more(
+    ground: &Ground,
+    plan: &Plan,
+    before: &[Ball],
+    n: usize,
+    random: &mut Random,
+) -> Result<Vec<Ball>> {
     let Ground { field, dexels, radii, limits, size, .. } = *ground;
     let fit = |p: [f32; 3]| {
         let medial = medial::ball(field, p, size);
@@ -50,9 +61,16 @@ pub(super) fn seeds(
     if candidates.iter().any(fits) {
         candidates.retain(fits);
     }
-    let points = dexels.points(plan.points, random)?;
+    let mut points = dexels.points(plan.points, random)?;
+    let covers = |p: &[f32; 3], b: &Ball| {
+        let square = |a: usize| (p[a] - b.center[a]) * (p[a] - b.center[a]);
+        square(0) + square(1) + square(2) <= b.radius * b.radius
+    };
+    points.retain(|p| !before.iter().any(|b| covers(p, b)));
     let mut balls = reserve("balls", n)?;
-    balls.extend(choose(points, &candidates, n)?.into_iter().map(|i| candidates[i]));
+    balls.extend(before.iter().take(n));
+    let left = n - balls.len();
+    balls.extend(choose(points, &candidates, left)?.into_iter().map(|i| candidates[i]));
     // Where all points are held before there are enough: balls about more of the medial axis.
     let more = n - balls.len();
     balls.extend(dexels.points(more, random)?.into_iter().map(fit));

@@ -84,6 +84,48 @@ impl<'a> Start<'a> {
         Ok(state)
     }
 
+    /// A clump from a smaller one: `fixed` of its balls stay, further ones are added where most is
+    /// missing. They come into place first, then all that do not stay move.
+    pub(super) fn after(
+        &self,
+        before: &[Ball],
+        fixed: usize,
+        smooth: Option<Smooth>,
+        look: &mut Look,
+        go: &mut dyn FnMut() -> bool,
+    ) -> Result<State<'a>> {
+        let Start { ground, plan, n, seed, pool } = self;
+        let mut random = Random::new(*seed, 0);
+        let shared = (*n * plan.directions >= SHARED).then_some(*pool);
+        let balls = seeds::more(ground, plan, before, *n, &mut random)?;
+        let new: Vec<u32> = (before.len() as u32..*n as u32).collect();
+        let mut state = State::new(*ground, balls, Orbits::default(), smooth, look)?;
+        state.fixed = before.len();
+        let mut refiner = Refiner::default();
+        let directions = Directions::new(plan.directions);
+        let wide = self.wide(*n);
+        let iterations = plan.iterations / 2;
+        let schedule = Schedule { iterations, from: 0.5 * wide, to: wide / 6.0 };
+        let weights = Weights::at(0.0, ground.overshoot);
+        let task = ground.task(&directions, weights, &state.orbits, None);
+        let mut balls = state.balls.clone();
+        refiner.refine(&task, &schedule, &mut balls, &new, &mut random, shared, go);
+        state.balls = balls;
+        state.renew(look)?;
+        state.measure_width(refiner.area);
+        state.fixed = fixed;
+        if go() {
+            let iterations = plan.iterations - iterations;
+            self.settle(&mut state, &directions, iterations, &mut random, shared, look, go)?;
+        }
+        Ok(state)
+    }
+
+    /// Huber's width at the first iteration.
+    fn wide(&self, balls: usize) -> f32 {
+        WIDE * self.ground.size * (FEW / (balls as f32).max(FEW)).cbrt()
+    }
+
     /// A start with this symmetry, the `k`th.
     fn draft(&self, sites: &'a Sites, k: u64, pool: Option<&Pool>) -> Result<State<'a>> {
         let plan = Effort::Draft.plan(self.n);
@@ -110,7 +152,7 @@ impl<'a> Start<'a> {
         let directions = Directions::new(plan.directions);
         let mut refiner = Refiner::default();
         let leads = orbits.leads(balls.len());
-        let wide = WIDE * ground.size * (FEW / (balls.len() as f32).max(FEW)).cbrt();
+        let wide = self.wide(balls.len());
         let first = plan.iterations / 2;
         let schedule = Schedule { iterations: first, from: wide, to: wide / 6.0 };
         let task = ground.task(&directions, Weights::at(0.0, ground.overshoot), &orbits, None);
@@ -137,7 +179,7 @@ impl<'a> Start<'a> {
         go: &mut dyn FnMut() -> bool,
     ) -> Result<()> {
         let mut refiner = Refiner::default();
-        let leads = state.orbits.leads(state.balls.len());
+        let leads = state.free();
         let task = self.ground.task(directions, state.weights(), &state.orbits, state.pull());
         let schedule = Schedule { iterations, from: 2.0 * state.width, to: 0.3 * state.width };
         let mut balls = state.balls.clone();

@@ -68,6 +68,8 @@ pub(super) struct State<'a> {
     rows: Vec<f64>,
     /// Whether the books are kept that moves need: what columns hold ball by ball.
     books: bool,
+    /// Balls of lower numbers stay as they are: those of a smaller clump that this one contains.
+    pub fixed: usize,
     /// How many parts the clump has, where it must hang together; else 1.
     pub parts: usize,
     near: Near,
@@ -101,6 +103,7 @@ impl<'a> State<'a> {
             tried: filled("moves of balls", n, 0)?,
             rows: reserve("rows of columns", ground.dexels.dims[1])?,
             books: false,
+            fixed: 0,
             parts: 1,
             near: Near::default(),
             version: 0,
@@ -150,6 +153,13 @@ impl<'a> State<'a> {
             weights.square = (smooth.slope() * self.both(&self.lengths)) as f32;
         }
         weights
+    }
+
+    /// Who leads the balls that may change.
+    pub(super) fn free(&self) -> Vec<u32> {
+        let mut leads = self.orbits.leads(self.balls.len());
+        leads.retain(|&i| i as usize >= self.fixed);
+        leads
     }
 
     /// What draws balls beside the volumes.
@@ -209,6 +219,9 @@ impl<'a> State<'a> {
 
     /// The width, from the clump's exposed area.
     pub(super) fn measure_width(&mut self, area: f64) {
+        // Of balls that stay no area is known: as much as of the others.
+        let n = self.balls.len() as f64;
+        let area = area * n / (n - self.fixed as f64).max(1.0);
         let volume = self.left_of(&self.lengths) * self.ground.dexels.cell();
         let least = 1e-5 * f64::from(self.ground.size);
         let width = if area > 0.0 { volume / area } else { 0.0 };
