@@ -7,8 +7,9 @@
 //! result) → [`generate`] (the methods that make it) and [`mass`] (what a solver
 //! takes of it) → [`cost`] (what accuracy costs in time), [`fragment`] (pieces of a solid that breaks), `export` (files that
 //! DEM codes read; with the feature `io`) and [`serial`] (bytes for another rank or a
-//! restart). A module imports only from those before it, `mass` not from `generate`, nor
-//! `fragment` and `export` from `cost`, nor `export` from `fragment`.
+//! restart), `dem` (simulation; with the feature `dem`). A module imports only from those before
+//! it, `mass` not from `generate`, nor `fragment` and `export` from `cost`, nor `export` from
+//! `fragment`.
 //! [`ffi`] is the C ABI and the only `unsafe`.
 //!
 //! The library is unit-free: lengths are in the caller's unit, moments are per
@@ -16,6 +17,8 @@
 
 pub mod clump;
 pub mod cost;
+#[cfg(feature = "dem")]
+pub mod dem;
 pub mod error;
 #[cfg(feature = "io")]
 pub mod export;

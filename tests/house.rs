@@ -137,7 +137,7 @@ fn unsafe_lives_in_the_c_border_alone() {
 }
 
 /// The rooms in the order of the data, each with what stands above it.
-const ROOMS: [(&str, &[&str]); 12] = [
+const ROOMS: [(&str, &[&str]); 13] = [
     ("error", &[]),
     ("math", &["error"]),
     ("run", &["error", "math"]),
@@ -153,6 +153,13 @@ const ROOMS: [(&str, &[&str]); 12] = [
         &["error", "math", "run", "shape", "solid", "measure", "clump", "generate", "mass"],
     ),
     ("export", &["error", "math", "run", "shape", "solid", "measure", "clump", "mass"]),
+    (
+        "dem",
+        &[
+            "error", "math", "run", "shape", "solid", "measure", "clump", "generate", "mass",
+            "fragment", "export",
+        ],
+    ),
 ];
 
 /// The room of a source file: its first folder, or the file itself.
