@@ -517,6 +517,7 @@ module morula
   public :: morula_parent_from_solid, morula_parent_from_clump, morula_parent_bytes
   public :: morula_parent_free, morula_held_init, morula_parent_held, morula_fragments_held
   public :: morula_break_options_init, morula_parent_break, morula_parents_break
+  public :: morula_fragments_from_labels
   public :: morula_reclump_shape, morula_fragments_free, morula_fragments_count
   public :: morula_fragments_dust_count, morula_fragments_get, morula_fragments_dust
   public :: morula_fragments_totals, morula_fragments_copy_spheres, morula_fragments_copy_masses
@@ -1340,6 +1341,21 @@ module morula
       integer(c_int32_t), intent(inout), optional :: statuses(*)
       integer(c_int32_t) :: r
     end function morula_parents_break
+    function morula_fragments_from_labels(labels, dims, spacing, origin, solid_options, xyzr, &
+        count, held, options, fragments) bind(c) result(r)
+      import
+      integer(c_int32_t), intent(in) :: labels(*)
+      integer(c_size_t), intent(in) :: dims(*)
+      real(c_double), intent(in), optional :: spacing(*)
+      real(c_double), intent(in), optional :: origin(*)
+      type(morula_solid_options), intent(in), optional :: solid_options
+      real(c_double), intent(in) :: xyzr(4, *)
+      integer(c_size_t), value :: count
+      type(morula_held), intent(in) :: held
+      type(morula_break_options), intent(in), optional :: options
+      type(c_ptr), intent(inout) :: fragments
+      integer(c_int32_t) :: r
+    end function morula_fragments_from_labels
     function morula_reclump_shape(solid, xyzr, count, held, options, fragments) bind(c) result(r)
       import
       type(c_ptr), value :: solid
@@ -1646,6 +1662,8 @@ module morula
     generic :: create => fragments_of_parent, fragments_of_fragment
     !> New spheres for a shape that has changed, from the old ones xyzr(4, n): one fragment.
     procedure :: reclump_shape => fragments_reclump
+    !> The pieces of a label volume labels(:, :, :); xyzr(4, n) are the body's spheres, or none.
+    procedure :: create_from_labels => fragments_from_labels
     procedure :: count => fragments_count
     procedure :: dust_count => fragments_dust_count
     !> What a solver takes of a fragment, and its quality.
@@ -2931,6 +2949,22 @@ contains
     self%handle = made
     call finish(code, status)
   end subroutine fragments_of_fragment
+
+  subroutine fragments_from_labels(self, labels, xyzr, held, spacing, origin, options, &
+      solid_options, status)
+    class(morula_fragments_t), intent(inout) :: self
+    integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
+    real(c_double), intent(in), contiguous :: xyzr(:, :)
+    type(morula_held), intent(in) :: held
+    real(c_double), intent(in), optional :: spacing(3), origin(3)
+    type(morula_break_options), intent(in), optional :: options
+    type(morula_solid_options), intent(in), optional :: solid_options
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
+    call self%destroy()
+    call finish(morula_fragments_from_labels(labels, shape(labels, c_size_t), spacing, origin, &
+      solid_options, xyzr, size(xyzr, 2, c_size_t), held, options, self%handle), status)
+  end subroutine fragments_from_labels
 
   subroutine fragments_reclump(self, solid, xyzr, held, options, status)
     class(morula_fragments_t), intent(inout) :: self

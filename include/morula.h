@@ -471,9 +471,9 @@ typedef struct morula_clump morula_clump;
 /// The files of a format in memory. Made by morula_body_export(), freed by morula_files_free().
 typedef struct morula_files morula_files;
 
-/// The fragments of one break, and its dust. Made by morula_parent_break(), morula_parents_break()
-/// or morula_reclump_shape(), freed by morula_fragments_free(). It does not need the handle of its
-/// parent any more.
+/// The fragments of one break, and its dust. Made by morula_parent_break(), morula_parents_break(),
+/// morula_fragments_from_labels(), morula_reclump_shape() or morula_fragments_deserialize(), freed by
+/// morula_fragments_free(). It does not need the handle of its parent any more.
 typedef struct morula_fragments morula_fragments;
 
 /// A particle that may break: its solid and the spheres of its clump, with what every break of it
@@ -2360,6 +2360,36 @@ int32_t morula_parents_break(const struct morula_parent *const *parents,
                              struct morula_fragments **fragments,
                              int32_t *statuses);
 
+/// Takes fragments back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_fragments_free(struct morula_fragments *fragments);
+
+/// Breaks a particle into the pieces of a label volume, as a fracture model of the host's gives them:
+/// fills each with spheres and hands mass, place and velocities over, as morula_parent_break() does.
+/// A label of several pieces, which share no face, makes a fragment of each; its cell is its label.
+///
+/// Parameters: `labels`, `dims`, `spacing` and `origin` as morula_shape_from_label(), in the frame and
+/// unit of the particle's shape; 0 is background; `solid_options` is for the grids of the pieces, NULL:
+/// the defaults; `xyzr` holds the `count` spheres of the particle's clump, x, y, z and radius each,
+/// within the union of which those of the fragments stay, or none; `held` is the body as the solver
+/// holds it; `options` may be NULL for the defaults: what they say of the cut is not read.
+/// Returns: as morula_parent_break(); EMPTY (no label); the statuses of morula_shape_from_label() and
+/// morula_solid_from_shape().
+/// Ownership: inputs stay the caller's and may be freed at once; free *fragments with
+/// morula_fragments_free(). *fragments is written only on success. Each fragment is the whole of a
+/// parent of its own, which *fragments keeps: to break one again, `parent` is NULL.
+/// Threads: any thread. The same bytes come out for any number of threads.
+int32_t morula_fragments_from_labels(const uint32_t *labels,
+                                     const size_t *dims,
+                                     const double *spacing,
+                                     const double *origin,
+                                     const struct morula_solid_options *solid_options,
+                                     const double *xyzr,
+                                     size_t count,
+                                     const struct morula_held *held,
+                                     const struct morula_break_options *options,
+                                     struct morula_fragments **fragments);
+
 /// New spheres for a particle whose shape has changed without breaking: dented, worn, grown.
 ///
 /// The old spheres are the start of the search, the map tells which of them each new one comes
@@ -2380,10 +2410,6 @@ int32_t morula_reclump_shape(const struct morula_solid *solid,
                              const struct morula_held *held,
                              const struct morula_break_options *options,
                              struct morula_fragments **fragments);
-
-/// Takes fragments back. NULL is ignored; a handle must not be used afterwards.
-/// Threads: no other thread may use the handle.
-void morula_fragments_free(struct morula_fragments *fragments);
 
 /// How many fragments there are; at least 1.
 ///

@@ -854,6 +854,20 @@ class Fragments {
             options, std::move(progress), [&](const auto &o, morula_fragments **out) {
               return morula_parent_break(nullptr, from.get(), index, &held, &o, out);
             })) {}
+  /// The pieces of a label volume, as a fracture model gives them; `spheres` are those of the body.
+  static Fragments from_labels(const std::vector<std::uint32_t> &labels, const Layout &layout,
+                               const std::vector<Sphere> &spheres, const Held &held,
+                               const BreakOptions &options = {}, const SolidOptions &grid = {},
+                               Progress progress = {}) {
+    layout.require(labels.size());
+    const auto xyzr = detail::flat(spheres);
+    return Fragments(detail::made<morula_fragments>(
+        options, std::move(progress), [&](const auto &o, morula_fragments **out) {
+          return morula_fragments_from_labels(labels.data(), layout.dims.data(),
+                                              layout.spacing.data(), layout.origin.data(), &grid,
+                                              xyzr.data(), spheres.size(), &held, &o, out);
+        }));
+  }
   /// New spheres for a shape that has changed, from the old ones.
   static Fragments reclump_shape(const Solid &solid, const std::vector<Sphere> &old,
                                  const Held &held, const BreakOptions &options = {},

@@ -6,10 +6,14 @@ mod common;
 
 use common::fragments::{lack, made, pieces, plane};
 use common::{Arrays, cuboid, join, solid_of, solid_of_mesh, sphere};
-use morula::fragment::{Cut, CutOptions, cut, cut_region, label_solids};
+use morula::fragment::{
+    Cut, CutOptions, Held, ShatterOptions, cut, cut_region, label_solids, shatter_labels,
+};
 use morula::generate::HalfSpace;
-use morula::math::Vec3;
+use morula::mass::Body;
+use morula::math::{Sphere, Vec3};
 use morula::shape::{ImportOptions, Layout, Shape};
+use morula::solid::SolidOptions;
 use morula::{Run, Solid};
 use std::f64::consts::PI;
 
@@ -174,11 +178,62 @@ fn labels_are_a_solid_each() {
     let solids = Default::default();
     let run = Run::serial();
     let options = CutOptions { least_volume: 0.2 };
-    let (made, left, lost) = label_solids(&labels, &layout, &options, &solids, &run).unwrap();
-    assert_eq!((left, lost), (1, 0.125));
+    let (made, dust) = label_solids(&labels, &layout, &options, &solids, &run).unwrap();
+    assert_eq!((dust.len(), dust[0].cell, dust[0].moments.volume), (1, 9, 0.125));
+    assert!((dust[0].moments.centroid - Vec3::new(4.75, 1.25, 1.25)).norm() < 1e-14);
     let found: Vec<(u32, f64)> = made.iter().map(|l| (l.label, l.solid.moments().volume)).collect();
     assert_eq!(found, [(3, 24.0), (7, 8.0), (7, 8.0)]);
     assert_eq!(made[2].solid.moments().centroid, Vec3::new(4.0, 4.0, 2.0));
     let all = label_solids(&labels, &layout, &CutOptions::default(), &solids, &run).unwrap();
-    assert_eq!((all.0.len(), all.1), (4, 0));
+    assert_eq!((all.0.len(), all.1.len()), (4, 0));
+}
+
+#[test]
+fn a_break_by_labels_keeps_everything() {
+    // A ball of cells in eight octants; one is cut off its neighbours by background.
+    let n = 20;
+    let middle = Vec3::repeat(n as f64 / 2.0);
+    let label = |c: usize| {
+        let at = Vec3::new((c % n) as f64, (c / n % n) as f64, (c / (n * n)) as f64);
+        let p = at.add_scalar(0.5) - middle;
+        let octant = u32::from(p.x > 0.0) + 2 * u32::from(p.y > 0.0) + 4 * u32::from(p.z > 0.0);
+        if p.norm() < 9.0 { octant + 1 } else { 0 }
+    };
+    let labels: Vec<u32> = (0..n * n * n).map(label).collect();
+    let layout = Layout { dims: [n; 3], spacing: [0.1; 3], origin: [5.0; 3] };
+    let mask: Vec<u8> = labels.iter().map(|&l| u8::from(l > 0)).collect();
+    let run = Run::serial();
+    let whole = Shape::from_mask(&mask, &layout, &ImportOptions::default(), &run).unwrap();
+    let whole = Solid::new(&whole, &SolidOptions::default(), &run).unwrap();
+    let body = Body::of_solid(&whole, 3.0).unwrap();
+    let held = Held {
+        velocity: Vec3::new(1.0, -2.0, 0.5),
+        angular_velocity: Vec3::new(3.0, 1.0, -4.0),
+        ..Held::of_body(&body, 1.0).unwrap()
+    };
+    let solids = SolidOptions::default();
+    let options = ShatterOptions::default();
+    let broken = |threads: usize| {
+        let run = Run::new(threads).unwrap();
+        shatter_labels(&labels, &layout, &solids, &[], &held, &options, &run).unwrap()
+    };
+    let (parents, found) = broken(1);
+    assert_eq!((parents.len(), found.fragments.len(), found.dust.len()), (8, 8, 0));
+    assert_eq!(found, broken(2).1);
+    let mass: f64 = found.fragments.iter().map(|f| f.moving.mass).sum();
+    assert!((mass / body.mass - 1.0).abs() < 1e-14);
+    assert!(found.inertia_error < 1e-12 && found.energy.abs() < 1e-10 * body.mass);
+    assert!(found.shift.norm() < 1e-12);
+    let mut share = 0.0;
+    for (i, f) in found.fragments.iter().enumerate() {
+        assert_eq!(f.region.cell(), i + 1);
+        share += f.clump.volume_share;
+        for g in &found.fragments[..i] {
+            for s in &f.clump.spheres {
+                let apart = |t: &Sphere| (s.center - t.center).norm() >= s.radius + t.radius;
+                assert!(g.clump.spheres.iter().all(apart));
+            }
+        }
+    }
+    assert!(share > 0.6 && share < 1.0, "{share}");
 }

@@ -8,7 +8,7 @@ fn root() -> PathBuf {
 }
 
 /// The header's order of reading.
-const FILES: [&str; 22] = [
+const FILES: [&str; 23] = [
     "status",
     "callbacks",
     "choices",
@@ -29,6 +29,7 @@ const FILES: [&str; 22] = [
     "export",
     "parent",
     "fragment",
+    "reshape",
     "fragment_read",
     "serial",
 ];

@@ -17,7 +17,91 @@ static size_t spheres(const morula_fragments *all, size_t index, double xyzr[20]
   return (size_t)f.sphere_count;
 }
 
+/* A block in three labels, one of them in two pieces, as a fracture model gives them. */
+static void labelled(void) {
+  enum { NX = 12, NY = 8, NZ = 8 };
+  static uint32_t labels[NZ][NY][NX];
+  for (int k = 0; k < NZ; k++)
+    for (int j = 0; j < NY; j++)
+      for (int i = 0; i < NX; i++)
+        labels[k][j][i] = i < 4 ? 9 : i < 8 ? 4 : k < 3 ? 7 : k < 5 ? 4 : 7;
+  const size_t dims[3] = {NX, NY, NZ};
+  const double spacing[3] = {0.25, 0.25, 0.25}, origin[3] = {1, 2, 3};
+  /* The block as a body of its own, for what a solver holds of it. */
+  static uint8_t mask[NZ][NY][NX];
+  memset(mask, 1, sizeof mask);
+  morula_shape *shape = NULL;
+  morula_moments m = {.struct_size = sizeof m};
+  OK(morula_shape_from_mask(mask[0][0], dims, spacing, origin, NULL, &shape));
+  OK(morula_shape_moments(shape, 2, &m));
+  morula_shape_free(shape);
+  morula_held held;
+  OK(morula_held_init(&held, sizeof held));
+  held.mass = m.mass;
+  memcpy(held.centre, m.centre, sizeof m.centre);
+  memcpy(held.inertia, m.inertia, sizeof m.inertia);
+  held.velocity[1] = 3;
+  held.angular_velocity[2] = 5;
+  morula_break_options options;
+  OK(morula_break_options_init(&options, sizeof options));
+  options.kind = 77; /* not read */
+  options.spheres = 12;
+  const double body[1][4] = {{2.5, 3, 4, 1.6}};
+  morula_fragments *all = NULL, *again = NULL;
+  OK(morula_fragments_from_labels(labels[0][0], dims, spacing, origin, NULL, body[0], 1, &held,
+                                  &options, &all));
+  size_t count = 0;
+  OK(morula_fragments_count(all, &count));
+  CHECK(count == 4);
+  const uint64_t cells[4] = {4, 7, 7, 9};
+  double mass = 0, momentum = 0, volume = 0;
+  for (size_t i = 0; i < count; i++) {
+    morula_fragment f = {.struct_size = sizeof f};
+    double xyzr[20][4];
+    OK(morula_fragments_get(all, i, &f));
+    CHECK(f.cell == cells[i] && f.coverage > 0.3 && f.step_factor > 0 && f.half_space_count == 0);
+    CHECK(f.map_count == f.sphere_count && f.volume_share < f.coverage);
+    OK(morula_fragments_copy_spheres(all, i, MORULA_FRAME_INPUT, 20, xyzr[0]));
+    for (size_t s = 0; s < f.sphere_count; s++) {
+      const double *c = xyzr[s], x = c[0] - body[0][0], y = c[1] - body[0][1], z = c[2] - body[0][2];
+      CHECK(sqrt(x * x + y * y + z * z) + c[3] <= body[0][3]); /* within the body's own sphere */
+      if (i == 3) CHECK(c[0] + c[3] <= 2 && c[0] - c[3] >= 1);
+    }
+    mass += f.mass;
+    momentum += f.mass * f.velocity[1];
+    volume += f.volume;
+  }
+  NEAR(mass, m.mass, 1e-13 * m.mass);
+  NEAR(momentum, 3 * m.mass, 1e-12 * m.mass);
+  NEAR(volume, 12, 1e-12);
+  morula_break_totals totals = {.struct_size = sizeof totals};
+  OK(morula_fragments_totals(all, &totals));
+  CHECK(totals.inertia_error < 1e-13 && fabs(totals.energy) < 1e-11 * m.mass);
+  /* A piece breaks again by itself. */
+  options.kind = MORULA_CUT_SEEDED;
+  morula_held own = {.struct_size = sizeof own};
+  OK(morula_fragments_held(all, 3, NULL, NULL, NULL, NULL, &own));
+  OK(morula_parent_break(NULL, all, 3, &own, &options, &again));
+  OK(morula_fragments_count(again, &count));
+  CHECK(count == 4);
+  morula_fragments_free(again);
+  morula_fragments_free(all);
+  all = NULL;
+  /* Nothing is there. */
+  memset(labels, 0, sizeof labels);
+  STATUS(morula_fragments_from_labels(labels[0][0], dims, spacing, origin, NULL, NULL, 0, &held,
+                                      &options, &all), MORULA_STATUS_EMPTY);
+  STATUS(morula_fragments_from_labels(NULL, dims, spacing, origin, NULL, NULL, 0, &held, &options,
+                                      &all), MORULA_STATUS_NULL_POINTER);
+  held.mass = NAN;
+  labels[0][0][0] = 1;
+  STATUS(morula_fragments_from_labels(labels[0][0], dims, spacing, origin, NULL, NULL, 0, &held,
+                                      &options, &all), MORULA_STATUS_NOT_FINITE);
+  CHECK(all == NULL);
+}
+
 int main(void) {
+  labelled();
   morula_shape *shape = l_shape(), *other = NULL;
   double coarse[2][4] = {{10.5, 20.5, 30.5, 0.4}, {11.5, 20.5, 30.5, 0.4}};
   morula_cache *cache = NULL;

@@ -26,6 +26,7 @@ program fortran_fragments
   integer(c_int32_t) :: status, statuses(2)
   integer(c_int64_t) :: bytes
   character(:), allocatable :: text
+  integer(c_int32_t) :: labels(8, 8, 8)
   integer :: n, k, dust, notes
 
   call shape%create_from_primitive('stone')
@@ -101,6 +102,26 @@ program fortran_fragments
   call check(counters%parents == 0 .and. counters%bytes == 0, 'empty')
   call cache%destroy()
   call elsewhere%destroy()
+
+  ! A cube of two halves and a cell of dust, as a fracture model gives them.
+  labels = 1
+  labels(5:, :, :) = 2
+  labels(8, 8, 8) = 3
+  held = morula_held(struct_size=c_sizeof(held), mass=64.0_c_double, centre=2.0_c_double, &
+    inertia=[512 / 3.0_c_double, 512 / 3.0_c_double, 512 / 3.0_c_double, 0.0_c_double, &
+    0.0_c_double, 0.0_c_double], scale=1.0_c_double, &
+    quaternion=[1.0_c_double, 0.0_c_double, 0.0_c_double, 0.0_c_double])
+  options%least_volume = 0.2_c_double
+  call again%create_from_labels(labels, none, held, spacing=spread(0.5_c_double, 1, 3), options=options)
+  call conserves(again)
+  call again%count(n)
+  call check(n == 2, 'two halves')
+  call check(dust == 1, 'a cell of dust')
+  call again%get(2, f)
+  call check(f%cell == 2 .and. abs(f%mass - 31.875_c_double) < 1e-12_c_double, 'the second half')
+  call again%totals(totals)
+  call check(totals%inertia_error < 1e-12_c_double, 'the cube''s inertia')
+  options%least_volume = 0
 
   ! Two in one step.
   call parents(1)%held(bodies(1), 2600.0_c_double)

@@ -8,12 +8,10 @@ use super::clumps::{give_all, room};
 use super::fragment_structs::*;
 use super::guard::{borrow, give, guard, require, slice, take};
 use super::options::{check, fill, init, read, read_all};
-use super::parent::{checked_spheres, held_struct, morula_parent, state};
-use super::solid::morula_solid;
+use super::parent::{held_struct, morula_parent, state};
 use crate::error::{Error, Result, collected, reserve};
 use crate::fragment::{
-    Cut, CutOptions, Held, Parent, ParentMap, ReclumpOptions, ShatterOptions, Shattered, reshape,
-    shatter,
+    Cut, CutOptions, Held, Parent, ParentMap, ReclumpOptions, ShatterOptions, Shattered, shatter,
 };
 use crate::generate::each;
 use crate::mass::MassOptions;
@@ -21,11 +19,12 @@ use crate::math::{Inertia, Vec3};
 use crate::run::Run;
 use std::sync::{Arc, OnceLock};
 
-/// The fragments of one break, and its dust. Made by morula_parent_break(), morula_parents_break()
-/// or morula_reclump_shape(), freed by morula_fragments_free(). It does not need the handle of its
-/// parent any more.
+/// The fragments of one break, and its dust. Made by morula_parent_break(), morula_parents_break(),
+/// morula_fragments_from_labels(), morula_reclump_shape() or morula_fragments_deserialize(), freed by
+/// morula_fragments_free(). It does not need the handle of its parent any more.
 pub struct morula_fragments {
-    pub(super) parent: Arc<Parent>,
+    /// One for all fragments, or one for each.
+    pub(super) parents: Vec<Arc<Parent>>,
     pub(super) held: Held,
     pub(super) found: Shattered,
     /// The radii of least mismatch of each fragment, once they were asked for.
@@ -91,9 +90,9 @@ pub unsafe extern "C" fn morula_break_options_init(
 }
 
 /// What is asked of one break.
-struct Asked {
-    cut: Cut,
-    options: ShatterOptions,
+pub(super) struct Asked {
+    pub(super) cut: Cut,
+    pub(super) options: ShatterOptions,
     seed: u64,
 }
 
@@ -122,7 +121,7 @@ unsafe fn cut_of(o: &morula_break_options) -> Result<Cut> {
     })
 }
 
-unsafe fn asked(o: &morula_break_options) -> Result<Asked> {
+pub(super) unsafe fn asked(o: &morula_break_options) -> Result<Asked> {
     let yes = |name: &str, value: i32| match value {
         0 => Ok(false),
         1 => Ok(true),
@@ -164,7 +163,7 @@ unsafe fn asked(o: &morula_break_options) -> Result<Asked> {
     Ok(Asked { cut: unsafe { cut_of(o)? }, options, seed: o.seed })
 }
 
-fn run_of<'a>(o: &morula_break_options) -> Result<Run<'a>> {
+pub(super) fn run_of<'a>(o: &morula_break_options) -> Result<Run<'a>> {
     let run = run(o.threads, o.progress, o.user)?.with_seed(o.seed);
     Ok(match o.deadline_seconds > 0.0 {
         true => run.with_deadline(o.deadline_seconds),
@@ -205,11 +204,11 @@ unsafe fn broken<'a>(
     from.at(index)?;
     if !parent.is_null() {
         let parent = unsafe { borrow(parent, "parent")? };
-        if !Arc::ptr_eq(&parent.inner, &from.parent) {
+        if !Arc::ptr_eq(&parent.inner, from.parent_of(index)?) {
             return Err(Error::InvalidArgument("the fragment is of another parent".into()));
         }
     }
-    Ok(Broken { parent: &from.parent, from: Some((from, index)) })
+    Ok(Broken { parent: from.parent_of(index)?, from: Some((from, index)) })
 }
 
 impl Broken<'_> {
@@ -226,12 +225,12 @@ impl Broken<'_> {
                 f.clump.map = ParentMap::between(&from.clump.spheres, &f.clump.spheres)?;
             }
         }
-        wrap(Arc::clone(self.parent), held, found)
+        wrap(vec![Arc::clone(self.parent)], held, found)
     }
 }
 
 pub(super) fn wrap(
-    parent: Arc<Parent>,
+    parents: Vec<Arc<Parent>>,
     held: &Held,
     mut found: Shattered,
 ) -> Result<morula_fragments> {
@@ -242,7 +241,7 @@ pub(super) fn wrap(
     }
     let mut grown = reserve("fragments", found.fragments.len())?;
     grown.resize_with(found.fragments.len(), OnceLock::new);
-    Ok(morula_fragments { parent, held: *held, found, grown })
+    Ok(morula_fragments { parents, held: *held, found, grown })
 }
 
 /// Breaks a particle, or a fragment of an earlier break, in one call: cuts it, fills the pieces with
@@ -344,47 +343,6 @@ pub unsafe extern "C" fn morula_parents_break(
             Err(e) => Err(e.clone()),
         });
         unsafe { give_all("break", made, fragments, statuses, |f| log_notes(&f.found.notes)) }
-    })
-}
-
-/// New spheres for a particle whose shape has changed without breaking: dented, worn, grown.
-///
-/// The old spheres are the start of the search, the map tells which of them each new one comes
-/// from, and mass, momentum and angular momentum of the held body are kept.
-///
-/// Parameters: `xyzr` holds the `count` old spheres (there may be none) in the frame of the new
-/// `solid`, x, y, z and radius each; `held` is the body as the solver holds it, in that frame;
-/// `options` may be NULL for the defaults: half_spaces, if any, are what bounds the body (flats
-/// pressed into it), kind is not read, and within_union is not heeded.
-/// Returns: as morula_parent_break(). *fragments holds one fragment, or as many as the half-spaces
-/// leave components.
-/// Ownership: inputs stay the caller's and may be freed at once; free *fragments with
-/// morula_fragments_free(). *fragments is written only on success.
-/// Threads: any thread; the solid is only read. The same bytes come out for any number of threads.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn morula_reclump_shape(
-    solid: *const morula_solid,
-    xyzr: *const f64,
-    count: usize,
-    held: *const morula_held,
-    options: *const morula_break_options,
-    fragments: *mut *mut morula_fragments,
-) -> i32 {
-    guard(|| {
-        let solid = unsafe { borrow(solid, "solid")? };
-        require(fragments, "fragments")?;
-        require(held, "held")?;
-        let old = unsafe { checked_spheres(xyzr, count, "xyzr")? };
-        let held = held_of(&unsafe { read(held)? });
-        let o = unsafe { read(options)? };
-        let o = morula_break_options { kind: MORULA_CUT_WITHIN, ..o };
-        let Asked { cut, options, .. } = unsafe { asked(&o)? };
-        let run = run_of(&o)?;
-        let (parent, found) = reshape(Arc::clone(&solid.inner), &old, &held, &cut, &options, &run)?;
-        let made = wrap(Arc::new(parent), &held, found)?;
-        log_notes(&made.found.notes);
-        unsafe { give(fragments, made) };
-        Ok(())
     })
 }
 

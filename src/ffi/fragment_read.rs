@@ -10,10 +10,11 @@ use super::options::{check, fill};
 use super::parent::checked_spheres;
 use super::shape::{give_shape, morula_shape, note, put};
 use crate::error::{Error, Result, collected, reserve};
-use crate::fragment::{Fragment, Moving, grow, grown_radii, shape};
+use crate::fragment::{Fragment, Moving, Parent, grow, grown_radii, shape};
 use crate::math::Sphere;
 use crate::run::Run;
 use std::ffi::c_char;
+use std::sync::Arc;
 
 impl morula_fragments {
     /// Fragment `index`.
@@ -25,6 +26,12 @@ impl morula_fragments {
                 all.len()
             ))
         })
+    }
+
+    /// What fragment `index` is a part of.
+    pub(super) fn parent_of(&self, index: usize) -> Result<&Arc<Parent>> {
+        let own = if self.parents.len() == 1 { 0 } else { index };
+        self.parents.get(own).ok_or_else(|| Error::Internal("a fragment has no parent".into()))
     }
 
     /// Spheres of a fragment, from the frame of the shape in another.
@@ -138,7 +145,7 @@ pub unsafe extern "C" fn morula_fragments_get(
         let all = unsafe { borrow(fragments, "fragments")? };
         let f = all.at(index)?;
         unsafe { check(fragment)? };
-        let frame = all.parent.solid().frame();
+        let frame = all.parent_of(index)?.solid().frame();
         let value = morula_fragment {
             volume: f.region.moments(frame).volume,
             coverage: f.clump.coverage,
@@ -308,7 +315,7 @@ pub unsafe extern "C" fn morula_fragments_copy_half_spaces(
 ) -> i32 {
     guard(|| {
         let all = unsafe { borrow(fragments, "fragments")? };
-        let found = all.at(index)?.region.half_spaces(all.parent.solid().frame());
+        let found = all.at(index)?.region.half_spaces(all.parent_of(index)?.solid().frame());
         if capacity < found.len() {
             let n = found.len();
             return Err(Error::BufferTooSmall(format!(
@@ -340,7 +347,7 @@ pub unsafe extern "C" fn morula_fragments_shape(
         let f = all.at(index)?;
         require(shape, "shape")?;
         let run = Run::serial();
-        let made = self::shape(all.parent.solid(), &f.region, &run)?;
+        let made = self::shape(all.parent_of(index)?.solid(), &f.region, &run)?;
         unsafe { give_shape(shape, made, &run) };
         Ok(())
     })
@@ -379,7 +386,7 @@ pub unsafe extern "C" fn morula_fragments_grow(
         let radii = match slot {
             Some(radii) => radii,
             None => {
-                let found = grown_radii(&all.parent, &f.region, own, &Run::serial())?;
+                let found = grown_radii(all.parent_of(index)?, &f.region, own, &Run::serial())?;
                 // Two threads that come at once find the same.
                 let lost = || Error::Internal("a fragment without a slot".into());
                 all.grown.get(index).ok_or_else(lost)?.get_or_init(|| found)

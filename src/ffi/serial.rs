@@ -139,7 +139,7 @@ pub unsafe extern "C" fn morula_fragments_serialize(
     guard(|| {
         let all = unsafe { borrow(fragments, "fragments")? };
         let f = all.at(index)?;
-        let made = fragment_to_bytes(&all.parent, &f.region, &f.clump.spheres)?;
+        let made = fragment_to_bytes(all.parent_of(index)?, &f.region, &f.clump.spheres)?;
         unsafe { hand(made, capacity, bytes, size) }
     })
 }
@@ -169,7 +169,7 @@ pub unsafe extern "C" fn morula_fragments_deserialize(
         let held = held_of(&unsafe { read(held)? });
         let record = fragment_from_bytes(parent, unsafe { slice(bytes, size, "bytes")? })?;
         let found = restore(parent, record.region, record.spheres, &held)?;
-        unsafe { give(fragments, wrap(Arc::clone(parent), &held, found)?) };
+        unsafe { give(fragments, wrap(vec![Arc::clone(parent)], &held, found)?) };
         Ok(())
     })
 }

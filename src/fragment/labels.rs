@@ -1,10 +1,11 @@
 //! Pieces that a fracture model of the caller's has marked in a label volume.
 
-use super::cut::CutOptions;
+use super::cut::{CutOptions, Dust};
 use crate::error::{Error, Result, filled, push};
 use crate::run::Run;
 use crate::shape::voxels::list_labels;
 use crate::shape::{ImportOptions, Layout, Shape};
+use crate::solid::moments::moments;
 use crate::solid::{Solid, SolidOptions};
 
 /// A piece of a label.
@@ -16,8 +17,8 @@ pub struct Labelled {
 }
 
 /// One solid for each face-connected piece of each label (0 is background), by ascending labels and
-/// then by first cells; and how many pieces of less than `least_volume` were left out, with their
-/// volume together. What they are made of is theirs alone: each has its own distance transform.
+/// then by first cells; and the pieces of less than `least_volume` as dust, the cell of which is the
+/// label. What they are made of is theirs alone: each has its own distance transform.
 ///
 /// Errors: those of [`Shape::from_label`] and [`Solid::new`].
 pub fn label_solids(
@@ -26,7 +27,7 @@ pub fn label_solids(
     options: &CutOptions,
     solid_options: &SolidOptions,
     run: &Run,
-) -> Result<(Vec<Labelled>, usize, f64)> {
+) -> Result<(Vec<Labelled>, Vec<Dust>)> {
     let infos = list_labels(labels, layout)?;
     let [nx, ny, nz] = layout.dims;
     let strides = [1, nx, nx * ny];
@@ -70,21 +71,21 @@ pub fn label_solids(
     }
     let cell: f64 = layout.spacing.iter().product();
     let import = ImportOptions { memory_limit: solid_options.memory_limit, ..Default::default() };
-    let (mut made, mut left, mut lost) = (Vec::new(), 0, 0.0);
+    let (mut made, mut dust) = (Vec::new(), Vec::new());
     let boxes = list_labels(&piece, layout)?;
     for (i, info) in boxes.iter().enumerate() {
         run.check(i as f64 / boxes.len() as f64, "making solids of labels")?;
         let (label, cells) = of
             .get((info.label as usize).wrapping_sub(1))
             .ok_or_else(|| Error::Internal("a piece of a label is lost".into()))?;
-        let volume = *cells as f64 * cell;
-        if volume < options.least_volume {
-            (left, lost) = (left + 1, lost + volume);
+        let shape = Shape::from_listed_label(&piece, layout, info, &import, run)?;
+        if (*cells as f64 * cell) < options.least_volume {
+            let moments = shape.frame.moments_to_input(&moments(&shape.body, run)?);
+            push("dust", &mut dust, Dust { moments, cell: *label as usize })?;
             continue;
         }
-        let shape = Shape::from_listed_label(&piece, layout, info, &import, run)?;
         let solid = Solid::new(&shape, solid_options, run)?;
         push("pieces of labels", &mut made, Labelled { label: *label, solid })?;
     }
-    Ok((made, left, lost))
+    Ok((made, dust))
 }

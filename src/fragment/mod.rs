@@ -6,6 +6,7 @@
 
 mod blocks;
 mod by_cells;
+mod by_labels;
 mod cache;
 mod cap;
 mod cells;
@@ -34,6 +35,7 @@ mod skin;
 mod spread;
 mod union;
 
+pub use by_labels::shatter_labels;
 pub use cache::{Cache, CacheCounters};
 pub use cells::Cut;
 pub use cut::{CutOptions, Dust, Fragments, cut, cut_region, shape};

@@ -9,7 +9,7 @@ use crate::clump::Stopped;
 use crate::error::{Error, Result, count, push, reserve};
 use crate::generate::each;
 use crate::mass::{Body, MassOptions, Masses, correct};
-use crate::math::{PrincipalFrame, Sphere};
+use crate::math::{Moments, PrincipalFrame, Sphere};
 use crate::run::Run;
 
 /// What is asked of a break.
@@ -100,21 +100,42 @@ pub fn shatter(
         None => cut(solid, by, &options.cut, run)?,
         Some(region) => cut_region(solid, region, by, &options.cut, run)?,
     };
-    let (mut dust, mut notes) = (pieces.dust, pieces.notes);
+    let (dust, notes) = (pieces.dust, pieces.notes);
     let regions = pieces.regions;
     let clumps = each(regions.len(), run, |k, run| {
         let region = regions.get(k).ok_or_else(|| Error::Internal("a piece is missing".into()))?;
         reclump(parent, region, &options.reclump, run)
     });
-    let mut kept: Vec<(Region, Reclump)> = reserve("fragments", regions.len())?;
+    let pieces = regions.into_iter().zip(clumps).map(|(region, clump)| {
+        let moments = region.moments(frame);
+        (region, moments, clump)
+    });
+    hand_over(pieces, dust, notes, held, frame.noise(), options, run)
+}
+
+/// The pieces of a break with their moments (caller's frame) and spheres, and its dust, as they take
+/// the body over. Pieces without room for a sphere become dust.
+pub(super) fn hand_over(
+    pieces: impl Iterator<Item = (Region, Moments, Result<Reclump>)>,
+    mut dust: Vec<Dust>,
+    mut notes: Vec<String>,
+    held: &Held,
+    noise: f64,
+    options: &ShatterOptions,
+    run: &Run,
+) -> Result<Shattered> {
+    let mut kept: Vec<(Region, Reclump)> = Vec::new();
+    let mut moments = Vec::new();
     let mut empty = 0;
-    for (region, clump) in regions.into_iter().zip(clumps) {
+    for (region, own, clump) in pieces {
         match clump {
-            Ok(clump) => kept.push((region, clump)),
+            Ok(clump) => {
+                push("fragments", &mut kept, (region, clump))?;
+                push("fragments", &mut moments, own)?;
+            }
             Err(Error::NoSpheres(_)) => {
                 empty += 1;
-                let crumb = Dust { moments: region.moments(frame), cell: region.cell() };
-                push("dust", &mut dust, crumb)?;
+                push("dust", &mut dust, Dust { moments: own, cell: region.cell() })?;
             }
             Err(e) => return Err(e),
         }
@@ -129,10 +150,10 @@ pub fn shatter(
         let pieces = count(empty, "piece");
         notes.push(format!("{pieces} without room for a sphere became dust"));
     }
-    let mut moments = reserve("pieces", kept.len() + dust.len())?;
-    moments.extend(kept.iter().map(|(region, _)| region.moments(frame)));
-    moments.extend(dust.iter().map(|d| d.moments));
-    let over = held.hand_over(&moments, frame.noise())?;
+    for crumb in &dust {
+        push("pieces", &mut moments, crumb.moments)?;
+    }
+    let over = held.hand_over(&moments, noise)?;
     let (first, rest) = over.pieces.split_at(kept.len());
     let mut fragments: Vec<Fragment> = reserve("fragments", kept.len())?;
     for (((region, clump), moving), m) in kept.into_iter().zip(first).zip(&moments) {
