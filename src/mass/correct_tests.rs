@@ -103,6 +103,24 @@ fn order_unit_density_and_place_change_nothing() {
         let expected: Vec<f64> = order.iter().map(|&i| straight[i]).collect();
         assert_eq!(mixed, expected);
     }
+    // Many of equal x, and copies.
+    let mut grid: Vec<Sphere> = (0..45)
+        .map(|i| {
+            let c = [i % 3, i / 3 % 3, i / 9].map(|k| f64::from(k) * 0.3);
+            Sphere::new(Vec3::from(c), 0.2 + 0.01 * f64::from(i % 7))
+        })
+        .collect();
+    grid[7] = grid[31];
+    let body = of_union(&grid, 1.0);
+    let straight = solve(&grid, &body, &MassOptions::default()).masses;
+    let order: Vec<usize> = (0..45).map(|i| i * 7 % 45).collect();
+    let other: Vec<Sphere> = order.iter().map(|&i| grid[i]).collect();
+    assert_eq!(of_union(&other, 1.0), body);
+    let mixed = solve(&other, &body, &MassOptions::default()).masses;
+    for (a, &i) in mixed.iter().zip(&order) {
+        let copies = [straight[7], straight[31]];
+        assert!(*a == straight[i] || (i == 7 || i == 31) && copies.contains(a), "{i}");
+    }
     let turn = Rotation3::from_euler_angles(0.3, -0.8, 1.9);
     for (scale, density, turned, at) in [
         (1e-9, 1e-3, false, 0.0),
@@ -177,20 +195,17 @@ fn few_spheres_keep_mass_and_centre() {
         assert_eq!(m.largest_m_min, None);
     }
     // Of what only positive masses cannot do, it is told how far they can.
-    let spheres = scattered(14, 5.0);
+    let spheres = scattered(40, 5.0);
     let body = of_union(&spheres, 1.0);
     let free = MassOptions { m_min: Some(0.0), ..MassOptions::default() };
     let easy = solve(&spheres, &body, &MassOptions { objective: Objective::MaxMin, ..free });
     let least = easy.masses.iter().fold(f64::MAX, |a, b| a.min(*b));
-    if easy.status == MassStatus::Exact {
-        let hard = solve(&spheres, &body, &MassOptions { m_min: Some(1.05 * least), ..free });
-        assert_eq!(hard.status, MassStatus::Relaxed);
-        let told = hard.largest_m_min.unwrap();
-        assert!((told / least - 1.0).abs() < 1e-6, "{told} {least}");
-        assert!(!hard.binding.is_empty());
-    } else {
-        assert_eq!(easy.largest_m_min, None);
-    }
+    assert_eq!(easy.status, MassStatus::Exact);
+    let hard = solve(&spheres, &body, &MassOptions { m_min: Some(1.05 * least), ..free });
+    assert_eq!(hard.status, MassStatus::Relaxed);
+    let told = hard.largest_m_min.unwrap();
+    assert!((told / least - 1.0).abs() < 1e-6, "{told} {least}");
+    assert!(!hard.binding.is_empty());
 }
 
 #[test]
@@ -205,6 +220,13 @@ fn bounds_hold() {
         assert!(m.masses.iter().all(|m| (0.2 * mean..=3.0 * mean).contains(m)), "{objective:?}");
         assert!(m.residuals.mass < 1e-12);
     }
+    // A bound below what was the greatest mass binds, and is told.
+    let free = solve(&spheres, &body, &MassOptions::default());
+    let m_max = 0.9 * free.masses.iter().fold(0.0, |a, b| b.max(a));
+    let m = solve(&spheres, &body, &MassOptions { m_max: Some(m_max), ..MassOptions::default() });
+    let greatest: Vec<u32> =
+        (0..60).filter(|&i| m.masses[i as usize] > (1.0 - 1e-9) * m_max).collect();
+    assert!(!greatest.is_empty() && greatest.iter().all(|i| m.binding.contains(i)), "{m:?}");
     // Nothing but equal masses is left.
     let options = MassOptions {
         m_min: Some(mean),
@@ -249,6 +271,8 @@ fn what_cannot_be_is_refused_with_the_reason() {
         .collect();
     for (spheres, text) in [
         (vec![ball(0.5, 0.0, 0.0)], "lies 5.000e-1 outside the hull of the 1 sphere centres"),
+        (vec![ball(0.3, 0.4, 0.0)], "lies 5.000e-1 outside the hull of the 1 sphere centres"),
+        (vec![ball(0.9, 0.0, 0.0), ball(0.5, 0.0, 0.0)], "on one line; sphere 1 reaches farthest"),
         (vec![ball(0.5, 0.0, 0.0); 3], "3 sphere centres, which are all in one place; sphere"),
         (line, "5 sphere centres, which lie on one line; sphere"),
         (plane, "lies 2.500e-1 outside the hull of the 12 sphere centres, which lie in one plane"),
@@ -260,6 +284,14 @@ fn what_cannot_be_is_refused_with_the_reason() {
         assert_eq!(m.status, MassStatus::MassOnly);
         assert!(m.residuals.mass < 1e-12 && m.masses.iter().all(|x| *x >= m.m_min));
     }
+    // The nearest point of the hull, (0.4, 0.3, 0), lies between the first and the last.
+    let edge = [
+        ball(0.6, 0.033_333_333_333_333_33, 0.0),
+        ball(2.0, 2.0, 0.0),
+        ball(0.0, 0.833_333_333_333_333_4, 0.0),
+    ];
+    let e = refused(&edge, &body, &plain).to_string();
+    assert!(e.contains("lies 5.000e-1 outside the hull of the 3 sphere centres"), "{e}");
     let lopsided = [ball(0.5, 0.0, 0.0), ball(-0.1, 0.0, 0.0)];
     let e = refused(&lopsided, &body, &MassOptions { m_min: Some(0.4 * mass), ..plain });
     assert!(matches!(&e, Error::NoMasses(t) if t.contains("the bounds are too narrow")), "{e}");
@@ -277,6 +309,48 @@ fn what_cannot_be_is_refused_with_the_reason() {
     let cancelled = Run::serial().with_progress(Box::new(|_| true));
     let e = correct(&two, &body, &plain, &cancelled).unwrap_err();
     assert!(matches!(e, Error::Cancelled(_)));
+}
+
+#[test]
+fn planes_and_lines_of_spheres_may_lie_anyhow() {
+    // Across them the equations hold nothing but rounding where they are turned.
+    let plane: Vec<_> = (0..9)
+        .map(|i| {
+            let (x, y) = (f64::from(i % 3) * 0.3 - 0.3, f64::from(i / 3) * 0.3 - 0.3);
+            let x = if i == 4 { 0.02 } else { x };
+            Sphere::new(Vec3::new(x, y, 0.0), 0.5 + 0.03 * f64::from(i))
+        })
+        .collect();
+    let line: Vec<_> = (0..5)
+        .map(|i| {
+            Sphere::new(Vec3::new(0.25 * f64::from(i) - 0.5, 0.0, 0.0), 0.5 + 0.02 * f64::from(i))
+        })
+        .collect();
+    let straight = ellipsoid(1.3, 1.0, 0.8, 2.0);
+    for spheres in [plane, line] {
+        for objective in OBJECTIVES {
+            let least = solve(&spheres, &straight, &ask(objective)).residuals.inertia;
+            for k in 0..8 {
+                let t = f64::from(k);
+                let turn = Rotation3::from_euler_angles(0.3 + t, 1.1 * t - 0.8, 1.9 - 0.7 * t);
+                let place = |s: &Sphere| Sphere::new(turn * s.center, s.radius);
+                let turned: Vec<_> = spheres.iter().map(place).collect();
+                let tensor = turn.matrix() * straight.inertia.matrix() * turn.matrix().transpose();
+                let moments = Moments {
+                    volume: straight.volume,
+                    centroid: Vec3::zeros(),
+                    inertia: Inertia::from_matrix(&(tensor / 2.0)),
+                    relative_error: 0.0,
+                };
+                let body = Body::of_moments(&moments, 2.0).unwrap();
+                let m = solve(&turned, &body, &ask(objective));
+                assert_eq!(m.status, MassStatus::Relaxed);
+                assert!(m.residuals.mass < 1e-12 && m.residuals.center < 1e-12);
+                let off = m.residuals.inertia / least - 1.0;
+                assert!(off.abs() < 1e-6, "{objective:?} {k}: {off:e}");
+            }
+        }
+    }
 }
 
 #[path = "oracle_tests.rs"]

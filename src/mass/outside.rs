@@ -2,8 +2,8 @@
 
 use super::body::Body;
 use super::pile::Pile;
-use super::problem::{Problem, greatest};
-use super::relax::{Demand, least_error};
+use super::problem::Problem;
+use super::relax::{Demand, least_error, least_squares};
 use crate::error::{Error, Result, figure};
 use crate::math::Vec3;
 use nalgebra::Matrix3;
@@ -24,9 +24,13 @@ pub(super) fn outside(p: &Problem, pile: &Pile, body: &Body) -> Result<Error> {
         _ => "",
     };
     let text = match hull {
-        Some((off, x)) if off > 1e-9 => {
-            let r = free.residuals(&x);
+        // Somewhat more than what the solver leaves.
+        Some((off, x)) if off > 3e-10 => {
+            // That is the greatest component; the nearest point of the hull is where the sum of
+            // their squares is least.
+            let r = free.residuals(&least_squares(&free, CENTER)?.unwrap_or(x));
             let towards = -Vec3::new(r[1], r[2], r[3]);
+            let distance = towards.norm().clamp(off, 3f64.sqrt() * off);
             let reach = |i: &usize| pile.spheres[*i].center.dot(&towards);
             let nearest = (0..n).max_by(|i, j| reach(i).total_cmp(&reach(j))).unwrap_or(0);
             let nearest = pile.order.get(nearest).copied().unwrap_or(0);
@@ -34,7 +38,7 @@ pub(super) fn outside(p: &Problem, pile: &Pile, body: &Body) -> Result<Error> {
                 "the centre of mass of the target lies {:.3e} outside the hull of the {n} sphere \
                  centres{lie}; sphere {nearest} reaches farthest towards it: no masses give the \
                  clump that centre",
-                greatest(&r[1..4]) * length
+                distance * length
             )
         }
         _ => format!(

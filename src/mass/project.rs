@@ -11,6 +11,8 @@ type Vector = SVector<f64, ROWS>;
 const STEPS: usize = 100;
 /// Equations met to this are met to rounding.
 const MET: f64 = 4e-15;
+/// Entries of an equation that are less than this, beside those of the mass, are nothing.
+const NOTHING: f64 = 1e-12;
 
 /// The x nearest to `near` in the weights, of the first `rows` equations. `None` where the
 /// steps end without meeting the equations to `tolerance`: they contradict each other or the
@@ -22,12 +24,14 @@ pub(super) fn project(
     weights: &[f64],
     tolerance: f64,
 ) -> Option<Vec<f64>> {
-    // Equations without entries, such as those across a plane that holds all centres, are left
-    // alone; the others get one size.
+    // Equations without entries but for rounding, such as those across a plane that holds all
+    // centres, are left alone; the others get one size.
     let mut size = [1.0; ROWS];
+    let square = |row: &[f64]| -> f64 { row.iter().zip(weights).map(|(a, w)| w * a * a).sum() };
+    let whole = p.rows.first().map_or(0.0, |mass| square(mass));
     for (size, row) in size.iter_mut().zip(&p.rows) {
-        let sum: f64 = row.iter().zip(weights).map(|(a, w)| w * a * a).sum();
-        if sum > 1e-300 {
+        let sum = square(row);
+        if sum > NOTHING * NOTHING * whole {
             *size = 1.0 / sum.sqrt();
         }
     }

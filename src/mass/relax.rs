@@ -47,6 +47,21 @@ pub(super) fn least_error(p: &Problem, demand: Demand) -> Result<Option<(f64, Ve
     Ok(Some((error, x)))
 }
 
+/// The masses of which the soft equations miss the least, by the sum of squares. `None` where the
+/// hard ones cannot be met.
+pub(super) fn least_squares(p: &Problem, demand: Demand) -> Result<Option<Vec<f64>>> {
+    let n = p.n;
+    let mut q = Program::new(n + demand.soft - demand.hard);
+    q.square.iter_mut().skip(n).for_each(|s| *s = 1.0);
+    equations(&mut q, p, demand, None);
+    bounds(&mut q, p, p.least, None);
+    let found = q.solve()?;
+    Ok(found.map(|mut x| {
+        x.truncate(n);
+        x
+    }))
+}
+
 /// The masses that serve `goal` best, with errors of the soft equations up to `error`.
 pub(super) fn best(
     p: &Problem,

@@ -15,6 +15,7 @@ fn what_is_placed_is_what_would_be_found_there() {
         let there = place.spheres(&spheres).unwrap();
         let (moved, found) = (place.body(&body, density).unwrap(), of_union(&there, density));
         assert!((moved.mass / found.mass - 1.0).abs() < 1e-9);
+        assert!((moved.volume / found.volume - 1.0).abs() < 1e-9);
         assert!((moved.center - found.center).norm() < 1e-9 * scale);
         let size = found.principal.moments[2];
         for (a, b) in moved.inertia.to_array().iter().zip(found.inertia.to_array()) {
