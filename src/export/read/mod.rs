@@ -93,10 +93,22 @@ fn sphere([x, y, z, r]: [f64; 4], place: &str) -> Result<Sphere> {
     Ok(Sphere::new(Vec3::new(x, y, z), r))
 }
 
-/// The numbers of a line between commas, semicolons, tabs or blanks; none where one is no number.
+/// The numbers of a line between commas, semicolons, tabs or blanks; none where one is no number,
+/// or where nothing stands between two commas.
 fn numbers(line: &str) -> Option<Vec<f64>> {
-    let words = line.split([',', ';', ' ', '\t']).filter(|w| !w.is_empty());
-    words.map(|w| w.trim().parse().ok()).collect()
+    let line = line.trim();
+    let row = line.strip_suffix([',', ';']).unwrap_or(line);
+    let mut all = Vec::new();
+    for cell in row.split([',', ';']) {
+        let before = all.len();
+        for word in cell.split_whitespace() {
+            all.push(word.parse().ok()?);
+        }
+        if all.len() == before {
+            return None;
+        }
+    }
+    Some(all)
 }
 
 #[cfg(test)]

@@ -5,7 +5,13 @@ fn tables_read_with_and_without_header_and_faults_name_their_place() {
     let t = parse("x,y,z,r\n1,2,3,0.5\n\n-1e-3,0,0,2\n# volume = 4\n").unwrap();
     assert_eq!(t.spheres[1], Sphere::new(Vec3::new(-1e-3, 0.0, 0.0), 2.0));
     assert!(t.masses.is_empty());
-    for text in ["1 2 3 0.5\n", "1\t2\t3\t0.5", "1, 2, 3,  0.5\r\n", "X;Y;Z;Radius\n1;2;3;0.5"] {
+    for text in [
+        "1 2 3 0.5\n",
+        "1\t2\t3\t0.5",
+        "1, 2, 3,  0.5\r\n",
+        "X;Y;Z;Radius\n1;2;3;0.5",
+        "1,2,3,0.5,",
+    ] {
         assert_eq!(parse(text).unwrap().spheres, t.spheres[..1], "{text}");
     }
     let t = parse("x,y,z,r,mass\n1,2,3,0.5,7\n").unwrap();
@@ -13,6 +19,8 @@ fn tables_read_with_and_without_header_and_faults_name_their_place() {
     for (text, place) in [
         ("a,b\n", "line 1"),
         ("x,y,z,r\n1,2,3\n", "line 2"),
+        ("x,y,z,r\n1,,2,3,4\n", "line 2"),
+        ("x,y,z,r\n1,2,3,4\n,1,2,3,4\n", "line 3"),
         ("x,y,z,r\n1,2,3,4,5\n", "line 2"),
         ("1 2 3 4\n1 2 3 4 5\n", "line 2"),
         ("1 2 3 4\nx\n", "line 2"),
@@ -34,6 +42,19 @@ fn a_record_says_its_frame() {
     assert!(clump("\"frame\":\"lab\",").is_err() && clump("\"frame\":3,").is_err());
     assert!(clump("\"masses\":[1,2],").is_err() && clump("\"masses\":[\"a\"],").is_err());
     assert!(parse("{\"spheres\": [[1,2]]}").is_err() && parse("{}").is_err());
+    // What is no number is not passed over.
+    let e = parse("{\"spheres\": [[1,2,3,0.5],[1,2,null,3,4]]}").unwrap_err();
+    assert!(e.to_string().contains("sphere 1"), "{e}");
+    for (bad, word) in [
+        ("\"masses\":3,", "masses"),
+        ("\"masses\":[true],", "mass 0"),
+        ("\"mass\":\"5\",", "mass"),
+        ("\"volume\":[1],", "volume"),
+    ] {
+        assert!(clump(bad).unwrap_err().to_string().contains(word), "{bad}");
+    }
+    let t = clump("\"masses\":null,\"mass\":null,\"volume\":2,").unwrap();
+    assert_eq!((t.masses.len(), t.mass, t.volume), (0, None, Some(2.0)));
 }
 
 #[test]
