@@ -12,17 +12,13 @@ use std::fmt::Write;
 
 pub(super) fn molecule(r: &Record) -> Result<String> {
     let n = r.spheres.len();
-    if n < 2 {
-        return Err(Error::Unsupported(
-            "a rigid body of LAMMPS has two atoms or more, the clump has one sphere".into(),
-        ));
-    }
+    several(r)?;
     let mut out = String::new();
     let [a, b, c] = r.moments;
     let _ = writeln!(
         out,
         "# {}: clump of {n} spheres, centre of mass at the origin, principal axes",
-        r.name
+        r.title()
     );
     let _ = writeln!(out, "\n{n} atoms\n{:?} mass\n0.0 0.0 0.0 com", r.mass);
     let _ = writeln!(out, "{a:?} {b:?} {c:?} 0.0 0.0 0.0 inertia");
@@ -47,7 +43,8 @@ pub(super) fn molecule(r: &Record) -> Result<String> {
 }
 
 /// Body 1 at rest: in the frame of the body, or where the caller has it.
-pub(super) fn rigid(r: &Record, placed: bool) -> String {
+pub(super) fn rigid(r: &Record, placed: bool) -> Result<String> {
+    several(r)?;
     let principal = Matrix3::from_diagonal(&r.moments.into());
     let (center, tensor) = if placed {
         (r.center, Inertia::from_matrix(&(r.axes * principal * r.axes.transpose())))
@@ -55,10 +52,23 @@ pub(super) fn rigid(r: &Record, placed: bool) -> String {
         (crate::math::Vec3::zeros(), Inertia::from_matrix(&principal))
     };
     let [xx, yy, zz, xy, xz, yz] = tensor.to_array();
-    format!(
+    Ok(format!(
         "# {}: id mass x y z ixx iyy izz ixy ixz iyz vx vy vz lx ly lz ix iy iz, world axes\n\
          1\n\
          1 {:?} {:?} {:?} {:?} {xx:?} {yy:?} {zz:?} {xy:?} {xz:?} {yz:?} 0 0 0 0 0 0 0 0 0\n",
-        r.name, r.mass, center.x, center.y, center.z
-    )
+        r.title(),
+        r.mass,
+        center.x,
+        center.y,
+        center.z
+    ))
+}
+
+fn several(r: &Record) -> Result<()> {
+    if r.spheres.len() < 2 {
+        return Err(Error::Unsupported(
+            "a rigid body of LAMMPS has two atoms or more, the clump has one sphere".into(),
+        ));
+    }
+    Ok(())
 }

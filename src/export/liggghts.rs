@@ -11,7 +11,7 @@ pub(super) fn files(r: &Record) -> Vec<(Place, String)> {
          fix clump all particletemplate/multisphere 15485863 atom_type 1 volume_limit 1e-300 \
          density constant {:?} nspheres {} ntry 1000000 spheres file ${{clump_file}} scale 1.0 \
          type ${{clump_type}} mass {:?} inertia_tensor {a:?} 0.0 0.0 {b:?} 0.0 {c:?} use_density\n",
-        r.name,
+        r.title(),
         r.density(),
         r.spheres.len(),
         r.mass

@@ -102,7 +102,7 @@ pub fn files(record: &Record, format: Format, options: &ExportOptions) -> Result
     let texts = match format {
         Format::Mercury => mercury::files(r),
         Format::Lammps => vec![(Place::At, lammps::molecule(r)?)],
-        Format::LammpsRigid => vec![(Place::At, lammps::rigid(r, placed))],
+        Format::LammpsRigid => vec![(Place::At, lammps::rigid(r, placed)?)],
         Format::Liggghts => liggghts::files(r),
         Format::Yade => vec![(Place::At, yade::script(r))],
         Format::Deme => vec![(Place::At, deme::table(r))],

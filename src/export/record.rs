@@ -3,6 +3,9 @@ use crate::mass::Body;
 use crate::math::{Sphere, Vec3};
 use nalgebra::Matrix3;
 
+/// Bytes of a name in a comment.
+const TITLE: usize = 100;
+
 /// What every format is written from: a clump with its masses in the frame of the body (origin at
 /// the centre of mass, principal axes, right-handed, moments ascending), and where that frame
 /// lies in the caller's.
@@ -113,6 +116,13 @@ impl Record {
         self.center *= length;
         self.check().map_err(|e| e.about("in the units asked for"))?;
         Ok(self)
+    }
+
+    /// The name as far as a line of a comment has room for it: LAMMPS reads 255 bytes of the first
+    /// line of a molecule, and takes what follows for the next.
+    pub(super) fn title(&self) -> &str {
+        let fits = (0..=TITLE).rev().find_map(|end| self.name.get(..end));
+        if self.name.len() <= TITLE { &self.name } else { fits.unwrap_or_default() }
     }
 
     /// Density of the body.

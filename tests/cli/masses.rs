@@ -99,6 +99,13 @@ fn the_union_may_be_what_is_weighed() {
     assert!((mass / union - 1.0).abs() < 1e-3, "{mass} {union}");
     assert!((mass / (2500.0 * v["volume"].as_f64().unwrap()) - 1.0).abs() > 1e-6);
     assert_eq!(v["mass_status"], "exact");
+    // What the union lacks of the stone's inertia stands beside what its coverage alone would.
+    let stone: Value = serde_json::from_str(&succeeds(&words)).unwrap();
+    let trace = |v: &Value| list(&v["inertia"])[..3].iter().sum::<f64>();
+    let lacking = 1.0 - trace(&v) / trace(&stone);
+    assert!(lacking > 1e-3 && (stone["inertia_error"].as_f64().unwrap() - lacking).abs() < 1e-9);
+    let rule = 1.0 - stone["coverage"].as_f64().unwrap().powf(5.0 / 3.0);
+    assert!((stone["inertia_error_of_coverage"].as_f64().unwrap() - rule).abs() < 1e-12);
 }
 
 #[test]

@@ -131,6 +131,12 @@ fn other_units_scale_lengths_masses_and_moments() {
     let json = text(Format::Json, &options).swap_remove(0).1;
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     close(json["mass"].as_f64().unwrap(), r.mass * 1e6, 1e-15, "mass");
+    for k in 0..3 {
+        close(json["center"][k].as_f64().unwrap(), r.center[k] * 1e3, 1e-15, "centre");
+        close(json["spheres"][5][k].as_f64().unwrap(), r.spheres[5].center[k] * 1e3, 1e-15, "x");
+    }
+    close(json["spheres"][5][3].as_f64().unwrap(), r.spheres[5].radius * 1e3, 1e-15, "radius");
+    close(json["masses"][5].as_f64().unwrap(), r.masses[5] * 1e6, 1e-15, "mass of a sphere");
     close(json["volume"].as_f64().unwrap(), r.volume * 1e9, 1e-15, "volume");
     close(json["principal_moments"][2].as_f64().unwrap(), r.moments[2] * 1e12, 1e-15, "moment");
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e300] {
@@ -161,7 +167,10 @@ fn records_that_no_code_could_use_are_refused() {
     let mut alone = record();
     alone.spheres.truncate(1);
     alone.masses.truncate(1);
-    assert!(files(&alone, Format::Lammps, &ExportOptions::default()).is_err());
+    for format in [Format::Lammps, Format::LammpsRigid] {
+        let e = files(&alone, format, &ExportOptions::default()).unwrap_err();
+        assert!(e.to_string().contains("two atoms or more"), "{e}");
+    }
 }
 
 #[test]

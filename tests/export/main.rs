@@ -2,6 +2,7 @@
 //! held against Euler's equations. A program that is not installed is named and left out.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::print_stdout)]
 
+mod beside;
 mod body;
 mod files;
 mod lammps;
