@@ -3,8 +3,8 @@
 ! Compile this file with your own compiler (CMake: link morula::fortran). It has
 ! two layers. The first is one bind(c) interface for each function of morula.h,
 ! with the same names, and its structs as bind(c) types. The second are the types
-! morula_shape_t, morula_solid_t, morula_clump_t, morula_body_t, morula_parent_t,
-! morula_cache_t and morula_fragments_t, which hold a handle:
+! morula_shape_t, morula_solid_t, morula_clump_t, morula_body_t, morula_cost_t,
+! morula_parent_t, morula_cache_t and morula_fragments_t, which hold a handle:
 !
 !   type(morula_shape_t) :: shape
 !   type(morula_clump_t) :: clump
@@ -76,6 +76,9 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_FRAGMENT = 17_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_BREAK_TOTALS = 18_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_CACHE_COUNTS = 19_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_COST_OPTIONS = 20_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_COST_POINT = 21_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_COST_BOUNDS = 22_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_REFUSE = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_LARGEST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_ALL = 2_c_int32_t
@@ -113,6 +116,15 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_DRAFT = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_NORMAL = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_EFFORT_THOROUGH = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_LEVELS_FREE = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_LEVELS_CHAINED = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_LEVELS_NESTED = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_GOAL_KNEE = 0_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_GOAL_SPHERES = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_GOAL_MISMATCH = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_GOAL_SECONDS = 3_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_GOAL_STEP_COST = 4_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_GOAL_TIME_COST = 5_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_SYMMETRY_NONE = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_SYMMETRY_AUTO = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_SYMMETRY_PLANES = 2_c_int32_t
@@ -477,6 +489,61 @@ module morula
     integer(c_int64_t) :: bytes = 0_c_int64_t
   end type morula_cache_counts
 
+  type, bind(c), public :: morula_cost_options
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    type(c_ptr) :: counts = c_null_ptr
+    integer(c_size_t) :: count = 0_c_size_t
+    integer(c_int64_t) :: most = 0_c_int64_t
+    real(c_double) :: seconds = 0.0_c_double
+    real(c_double) :: density = 0.0_c_double
+    type(c_ptr) :: contact = c_null_ptr
+    real(c_double) :: step(3) = 0.0_c_double
+    real(c_double) :: lists(2) = 0.0_c_double
+    real(c_double) :: rebuild = 0.0_c_double
+    integer(c_int32_t) :: levels = 0_c_int32_t
+    integer(c_int32_t) :: surface = 0_c_int32_t
+    integer(c_int32_t) :: masses = 0_c_int32_t
+    integer(c_int32_t) :: quality_columns = 0_c_int32_t
+  end type morula_cost_options
+
+  type, bind(c), public :: morula_cost_point
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    integer(c_int64_t) :: asked = 0_c_int64_t
+    integer(c_int64_t) :: spheres = 0_c_int64_t
+    real(c_double) :: mismatch = 0.0_c_double
+    real(c_double) :: coverage = 0.0_c_double
+    real(c_double) :: overshoot = 0.0_c_double
+    real(c_double) :: surface = 0.0_c_double
+    real(c_double) :: hausdorff = 0.0_c_double
+    real(c_double) :: protrusion = 0.0_c_double
+    real(c_double) :: roughness = 0.0_c_double
+    real(c_double) :: union_inertia = 0.0_c_double
+    real(c_double) :: inertia = 0.0_c_double
+    real(c_double) :: seconds = 0.0_c_double
+    real(c_double) :: seconds_so_far = 0.0_c_double
+    real(c_double) :: time_step = 0.0_c_double
+    real(c_double) :: rayleigh = 0.0_c_double
+    real(c_double) :: step_factor = 0.0_c_double
+    real(c_double) :: least_radius = 0.0_c_double
+    real(c_double) :: step_cost = 0.0_c_double
+    real(c_double) :: time_cost = 0.0_c_double
+    integer(c_int32_t) :: masses = 0_c_int32_t
+    integer(c_int32_t) :: stopped = 0_c_int32_t
+  end type morula_cost_point
+
+  type, bind(c), public :: morula_cost_bounds
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    integer(c_int64_t) :: spheres = 0_c_int64_t
+    real(c_double) :: mismatch = 0.0_c_double
+    real(c_double) :: coverage = 0.0_c_double
+    real(c_double) :: surface = 0.0_c_double
+    real(c_double) :: seconds = 0.0_c_double
+    real(c_double) :: step_cost = 0.0_c_double
+    real(c_double) :: time_cost = 0.0_c_double
+    integer(c_int32_t) :: goal = 0_c_int32_t
+    integer(c_int32_t) :: reserved = 0_c_int32_t
+  end type morula_cost_bounds
+
   ! ---- functions of morula.h ----
 
   public :: morula_version, morula_version_string, morula_status_name, morula_last_error_message
@@ -512,6 +579,9 @@ module morula
   public :: morula_clump_overlap, morula_clump_surface, morula_clump_copy_exposed_areas
   public :: morula_clump_copy_plane_contacts, morula_clump_counters
   public :: morula_fragments_serialize, morula_fragments_deserialize
+  public :: morula_cost_options_init, morula_cost_bounds_init, morula_cost_curve
+  public :: morula_cost_count, morula_cost_cut, morula_cost_copy, morula_cost_clump
+  public :: morula_cost_choose, morula_cost_free
   public :: morula_cache_new, morula_cache_parent, morula_cache_counters, morula_cache_clear
   public :: morula_cache_free
   public :: morula_parent_from_solid, morula_parent_from_clump, morula_parent_bytes
@@ -1312,6 +1382,66 @@ module morula
       type(morula_held), intent(inout) :: held
       integer(c_int32_t) :: r
     end function morula_fragments_held
+    function morula_cost_options_init(options, size) bind(c) result(r)
+      import
+      type(morula_cost_options), intent(out) :: options
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: r
+    end function morula_cost_options_init
+    function morula_cost_bounds_init(bounds, size) bind(c) result(r)
+      import
+      type(morula_cost_bounds), intent(out) :: bounds
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: r
+    end function morula_cost_bounds_init
+    function morula_cost_curve(solid, options, cost, curve) bind(c) result(r)
+      import
+      type(c_ptr), value :: solid
+      type(morula_clump_options), intent(in), optional :: options
+      type(morula_cost_options), intent(in), optional :: cost
+      type(c_ptr), intent(inout) :: curve
+      integer(c_int32_t) :: r
+    end function morula_cost_curve
+    function morula_cost_count(curve, count) bind(c) result(r)
+      import
+      type(c_ptr), value :: curve
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_cost_count
+    function morula_cost_cut(curve, cut) bind(c) result(r)
+      import
+      type(c_ptr), value :: curve
+      integer(c_int32_t), intent(inout) :: cut
+      integer(c_int32_t) :: r
+    end function morula_cost_cut
+    function morula_cost_copy(curve, capacity, points) bind(c) result(r)
+      import
+      type(c_ptr), value :: curve
+      integer(c_size_t), value :: capacity
+      type(morula_cost_point), intent(inout) :: points(*)
+      integer(c_int32_t) :: r
+    end function morula_cost_copy
+    function morula_cost_clump(curve, index, clump) bind(c) result(r)
+      import
+      type(c_ptr), value :: curve
+      integer(c_size_t), value :: index
+      type(c_ptr), intent(inout) :: clump
+      integer(c_int32_t) :: r
+    end function morula_cost_clump
+    function morula_cost_choose(curve, bounds, index, capacity, text, length) bind(c) result(r)
+      import
+      type(c_ptr), value :: curve
+      type(morula_cost_bounds), intent(in), optional :: bounds
+      integer(c_size_t), intent(inout) :: index
+      integer(c_size_t), value :: capacity
+      type(c_ptr), value :: text
+      integer(c_size_t), intent(inout), optional :: length
+      integer(c_int32_t) :: r
+    end function morula_cost_choose
+    subroutine morula_cost_free(curve) bind(c)
+      import
+      type(c_ptr), value :: curve
+    end subroutine morula_cost_free
     function morula_break_options_init(options, size) bind(c) result(r)
       import
       type(morula_break_options), intent(out) :: options
@@ -1635,6 +1765,29 @@ module morula
     final :: parent_final
   end type morula_parent_t
 
+  !> A price list: for each number of spheres how good the clump is and what it costs.
+  type, public :: morula_cost_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    procedure :: create => cost_create
+    procedure :: count => cost_count
+    !> Whether cancel or the deadline ended it early.
+    procedure :: cut => cost_cut
+    !> All lines, by the number of spheres.
+    procedure :: points => cost_points
+    !> The clump of a line, counted from 1.
+    procedure :: clump => cost_clump
+    !> The line, counted from 1, that is best within bounds (the knee without), and why.
+    procedure :: choose => cost_choose
+    procedure :: destroy => cost_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => cost_handle
+    procedure, private :: cost_assign
+    generic :: assignment(=) => cost_assign
+    final :: cost_final
+  end type morula_cost_t
+
   !> Prepared parents that are used again, within a bound of bytes.
   type, public :: morula_cache_t
     private
@@ -1699,7 +1852,7 @@ module morula
   !> Options with the defaults.
   interface morula_init
     procedure :: init_import, init_file, init_solid, init_clump, init_mass, init_contact, init_export
-    procedure :: init_break, init_held
+    procedure :: init_break, init_held, init_cost, init_cost_bounds
   end interface morula_init
 
   !> The labels of an array labels(nx, ny, nz), of a file (its path), of the bytes of a file.
@@ -1839,6 +1992,16 @@ contains
     integer(c_int32_t), intent(out), optional :: status
     call finish(morula_break_options_init(options, c_sizeof(options)), status)
   end subroutine init_break
+
+  subroutine init_cost(options)
+    type(morula_cost_options), intent(out) :: options
+    call finish(morula_cost_options_init(options, c_sizeof(options)))
+  end subroutine init_cost
+
+  subroutine init_cost_bounds(bounds)
+    type(morula_cost_bounds), intent(out) :: bounds
+    call finish(morula_cost_bounds_init(bounds, c_sizeof(bounds)))
+  end subroutine init_cost_bounds
 
   subroutine init_held(held, status)
     type(morula_held), intent(out) :: held
@@ -2715,6 +2878,108 @@ contains
     type(morula_body_t), intent(inout) :: self
     call self%destroy()
   end subroutine body_final
+
+  ! ---- price lists ----
+
+  subroutine cost_create(self, solid, options, cost, status)
+    class(morula_cost_t), intent(inout) :: self
+    class(morula_solid_t), intent(in) :: solid
+    type(morula_clump_options), intent(in), optional :: options
+    type(morula_cost_options), intent(in), optional :: cost
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_cost_curve(solid%handle, options, cost, self%handle), status)
+  end subroutine cost_create
+
+  subroutine cost_count(self, count, status)
+    class(morula_cost_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_cost_count(self%handle, n), status)
+    count = int(n)
+  end subroutine cost_count
+
+  subroutine cost_cut(self, cut, status)
+    class(morula_cost_t), intent(in) :: self
+    logical, intent(out) :: cut
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_int32_t) :: is
+    is = 0
+    call finish(morula_cost_cut(self%handle, is), status)
+    cut = is /= 0
+  end subroutine cost_cut
+
+  subroutine cost_points(self, points, status)
+    class(morula_cost_t), intent(in) :: self
+    type(morula_cost_point), allocatable, intent(out) :: points(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    integer(c_int32_t) :: code
+    n = 0
+    code = morula_cost_count(self%handle, n)
+    allocate(points(n))
+    if (code == MORULA_STATUS_OK) then
+      points%struct_size = c_sizeof(points(1))
+      code = morula_cost_copy(self%handle, n, points)
+    end if
+    call finish(code, status)
+  end subroutine cost_points
+
+  subroutine cost_clump(self, index, clump, status)
+    class(morula_cost_t), intent(in) :: self
+    integer, intent(in) :: index
+    class(morula_clump_t), intent(inout) :: clump
+    integer(c_int32_t), intent(out), optional :: status
+    call clump%destroy()
+    call finish(morula_cost_clump(self%handle, int(index - 1, c_size_t), clump%handle), status)
+  end subroutine cost_clump
+
+  subroutine cost_choose(self, index, why, bounds, status)
+    class(morula_cost_t), intent(in) :: self
+    integer, intent(out) :: index
+    character(:), allocatable, intent(out) :: why
+    type(morula_cost_bounds), intent(in), optional :: bounds
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: buffer(:)
+    integer(c_size_t) :: at, length
+    integer(c_int32_t) :: code
+    at = 0
+    length = 0
+    code = morula_cost_choose(self%handle, bounds, at, 0_c_size_t, c_null_ptr, length)
+    allocate(buffer(length + 1))
+    buffer = c_null_char
+    if (code == MORULA_STATUS_OK) then
+      code = morula_cost_choose(self%handle, bounds, at, length + 1, c_loc(buffer))
+    end if
+    why = morula_text(c_loc(buffer))
+    index = int(at) + 1
+    call finish(code, status)
+  end subroutine cost_choose
+
+  subroutine cost_destroy(self)
+    class(morula_cost_t), intent(inout) :: self
+    call morula_cost_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine cost_destroy
+
+  function cost_handle(self) result(handle)
+    class(morula_cost_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function cost_handle
+
+  subroutine cost_assign(self, other)
+    class(morula_cost_t), intent(inout) :: self
+    class(morula_cost_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine cost_assign
+
+  impure elemental subroutine cost_final(self)
+    type(morula_cost_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine cost_final
 
   ! ---- particles that may break ----
 

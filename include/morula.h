@@ -8,7 +8,7 @@
  * written only on success.
  *
  * Ownership. Handles (morula_shape, morula_solid, morula_clump, morula_body,
- * morula_files, morula_parent, morula_cache, morula_fragments) are made by the
+ * morula_files, morula_cost, morula_parent, morula_cache, morula_fragments) are made by the
  * library and taken back by their _free function, which ignores NULL. Arrays and strings
  * that you hand in are copied before the call returns. Results are copied into
  * your arrays; nothing points into the library but the texts of the _name and
@@ -176,6 +176,15 @@
 /// morula_cache_counts, for morula_sizeof().
 #define MORULA_STRUCT_CACHE_COUNTS 19
 
+/// morula_cost_options, for morula_sizeof().
+#define MORULA_STRUCT_COST_OPTIONS 20
+
+/// morula_cost_point, for morula_sizeof().
+#define MORULA_STRUCT_COST_POINT 21
+
+/// morula_cost_bounds, for morula_sizeof().
+#define MORULA_STRUCT_COST_BOUNDS 22
+
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 #define MORULA_BODIES_REFUSE 0
 
@@ -291,6 +300,37 @@
 
 /// Of the same: seconds.
 #define MORULA_EFFORT_THOROUGH 2
+
+/// Levels of detail that have nothing to do with each other: each is what a call of its own gives
+/// (the default).
+#define MORULA_LEVELS_FREE 0
+
+/// Each level starts from the one before where the method can (MORULA_METHOD_BEST without
+/// symmetry), which is quicker.
+#define MORULA_LEVELS_CHAINED 1
+
+/// Each level holds all spheres of the one before, in the same order, and further ones after them:
+/// MORULA_METHOD_BEST, MORULA_METHOD_COVER, MORULA_METHOD_EUCLIDEAN.
+#define MORULA_LEVELS_NESTED 2
+
+/// Where more spheres stop paying: the line of a price list that lies farthest below the straight
+/// one from first to last, on logarithmic axes of the cost of a step and of D (the default).
+#define MORULA_GOAL_KNEE 0
+
+/// Fewest spheres.
+#define MORULA_GOAL_SPHERES 1
+
+/// Least mismatch D.
+#define MORULA_GOAL_MISMATCH 2
+
+/// Fewest seconds of the method.
+#define MORULA_GOAL_SECONDS 3
+
+/// Cheapest step of the solver.
+#define MORULA_GOAL_STEP_COST 4
+
+/// Cheapest simulated time.
+#define MORULA_GOAL_TIME_COST 5
 
 /// MORULA_METHOD_BEST: no symmetry but by chance (the default).
 #define MORULA_SYMMETRY_NONE 0
@@ -467,6 +507,11 @@ typedef struct morula_cache morula_cache;
 /// morula_clump_from_shape() or morula_clump_from_solid(), freed by
 /// morula_clump_free(). It needs neither shape nor solid any more.
 typedef struct morula_clump morula_clump;
+
+/// A price list: for each number of spheres how good the clump is, how long it took and what a
+/// solver pays for it. Made by morula_cost_curve(), freed by morula_cost_free(). It needs the
+/// solid no more.
+typedef struct morula_cost morula_cost;
 
 /// The files of a format in memory. Made by morula_body_export(), freed by morula_files_free().
 typedef struct morula_files morula_files;
@@ -861,6 +906,139 @@ typedef struct morula_surface {
   uint32_t reserved;
 } morula_surface;
 
+/// What is known of the contacts of a particle. Fill it with morula_contact_options_init().
+typedef struct morula_contact_options {
+  /// sizeof(morula_contact_options).
+  size_t struct_size;
+  /// Stiffness of a linear spring, force per length; 0: elastic spheres (Hertz) of `young` and
+  /// `poisson`. Default 0.
+  double stiffness;
+  /// Young's modulus, force per area. Default 0, which is refused where it is read.
+  double young;
+  /// Poisson's ratio. Default 0.3.
+  double poisson;
+  /// Greatest speed at which two particles meet. Default 1.
+  double speed;
+  /// How many contacts act on a particle at once, as far as they push the same way. Default 1.
+  uint32_t contacts;
+  /// Must be 0.
+  uint32_t reserved;
+} morula_contact_options;
+
+/// What a price list is made of, beside morula_clump_options. Fill it with
+/// morula_cost_options_init().
+typedef struct morula_cost_options {
+  /// sizeof(morula_cost_options).
+  size_t struct_size;
+  /// Numbers of spheres, ascending; NULL with a count of 0: from 1 to `most`, about ten between
+  /// each and its tenfold. Copied before the call returns.
+  const uint64_t *counts;
+  /// Number of counts. Default 0.
+  size_t count;
+  /// The last number of spheres where there are no counts. Default 100.
+  uint64_t most;
+  /// Seconds that each clump may take; 0: as long as it takes. Default 0.
+  double seconds;
+  /// Mass per (caller's unit)^3. Default 1.
+  double density;
+  /// The contacts for which the time step holds; NULL: a spring of stiffness 1.
+  const struct morula_contact_options *contact;
+  /// What one step of the solver costs with clumps of n spheres, over one with single spheres:
+  /// a + b n + c n^2. Default: fitted to LAMMPS.
+  double step[3];
+  /// And what lists of neighbours add: (d n + e n^2) / rebuild. Default: fitted to LAMMPS.
+  double lists[2];
+  /// Steps from one list to the next. Default 50.
+  double rebuild;
+  /// What the clumps have to do with each other: one of MORULA_LEVELS_*. Default
+  /// MORULA_LEVELS_FREE.
+  int32_t levels;
+  /// 1: the distance between the surfaces is measured. Default 1.
+  int32_t surface;
+  /// 1: spheres are weighed, and the error of the inertia that is left is told. Default 1.
+  int32_t masses;
+  /// Columns along each of the two sampled axes of the quality figures; 0: the library's
+  /// choice. Default 0.
+  uint32_t quality_columns;
+} morula_cost_options;
+
+/// What a clump may cost, how good it must be, and what is made best. Fill it with
+/// morula_cost_bounds_init(). 0 bounds nothing.
+typedef struct morula_cost_bounds {
+  /// sizeof(morula_cost_bounds).
+  size_t struct_size;
+  /// Most spheres.
+  uint64_t spheres;
+  /// Greatest mismatch D.
+  double mismatch;
+  /// Least coverage.
+  double coverage;
+  /// Greatest RMS distance between the surfaces, over the equivalent diameter.
+  double surface;
+  /// Most seconds of the method.
+  double seconds;
+  /// Greatest cost of a step, in steps with single spheres.
+  double step_cost;
+  /// Greatest cost of simulated time, in the same unit.
+  double time_cost;
+  /// One of MORULA_GOAL_*. Default MORULA_GOAL_KNEE.
+  int32_t goal;
+  /// Must be 0.
+  int32_t reserved;
+} morula_cost_bounds;
+
+/// One line of a price list. Lengths are over the equivalent diameter; what was not wanted is 0.
+typedef struct morula_cost_point {
+  /// sizeof(morula_cost_point), set by the caller in the first of an array.
+  size_t struct_size;
+  /// Spheres asked for.
+  uint64_t asked;
+  /// Spheres of the clump.
+  uint64_t spheres;
+  /// Mismatch D.
+  double mismatch;
+  /// |S and C| / |S|.
+  double coverage;
+  /// |C without S| / |S|.
+  double overshoot;
+  /// RMS distance between the surfaces, both ways.
+  double surface;
+  /// Greatest distance between the surfaces.
+  double hausdorff;
+  /// Greatest distance of the clump beyond the target.
+  double protrusion;
+  /// RMS angle between the normals, radians.
+  double roughness;
+  /// By how much the trace of the inertia of the spheres' union is less than that of the target
+  /// at one density, over the latter.
+  double union_inertia;
+  /// The error of the inertia that is left with the masses of the spheres corrected, as
+  /// inertia_residual of morula_masses.
+  double inertia;
+  /// Seconds that this clump takes from a ready solid: of the method with the distance field, and
+  /// where the clump starts from those before, theirs, too.
+  double seconds;
+  /// Seconds so far: distance field, this clump and all before it.
+  double seconds_so_far;
+  /// The time step that the clump allows, as in morula_timestep.
+  double time_step;
+  /// The Rayleigh step of its spheres; 0 for a linear spring.
+  double rayleigh;
+  /// time_step over that of a sphere of the same mass and volume.
+  double step_factor;
+  /// The least radius over that of the sphere of equal volume.
+  double least_radius;
+  /// What one step of the solver costs, in units of one with single spheres.
+  double step_cost;
+  /// What simulated time costs, in the same unit: step_cost / step_factor.
+  double time_cost;
+  /// How far the masses meet the equations: one of MORULA_MASSES_*; MORULA_MASSES_NONE where
+  /// none were wanted.
+  int32_t masses;
+  /// Why the method stopped: one of MORULA_STOPPED_*.
+  int32_t stopped;
+} morula_cost_point;
+
 /// How the spheres of a clump are weighed. Fill it with morula_mass_options_init().
 typedef struct morula_mass_options {
   /// sizeof(morula_mass_options).
@@ -888,25 +1066,6 @@ typedef struct morula_mass_options {
   /// Handed to `progress`.
   void *user;
 } morula_mass_options;
-
-/// What is known of the contacts of a particle. Fill it with morula_contact_options_init().
-typedef struct morula_contact_options {
-  /// sizeof(morula_contact_options).
-  size_t struct_size;
-  /// Stiffness of a linear spring, force per length; 0: elastic spheres (Hertz) of `young` and
-  /// `poisson`. Default 0.
-  double stiffness;
-  /// Young's modulus, force per area. Default 0, which is refused where it is read.
-  double young;
-  /// Poisson's ratio. Default 0.3.
-  double poisson;
-  /// Greatest speed at which two particles meet. Default 1.
-  double speed;
-  /// How many contacts act on a particle at once, as far as they push the same way. Default 1.
-  uint32_t contacts;
-  /// Must be 0.
-  uint32_t reserved;
-} morula_contact_options;
 
 /// What a clump allows: three figures that answer three questions. A solver takes a part (a tenth to a
 /// fifth) of the first, or of the second where it demands that.
@@ -1903,6 +2062,94 @@ int32_t morula_clumps_from_labels(const uint32_t *labels,
                                   const struct morula_clump_options *options,
                                   struct morula_clump **clumps,
                                   int32_t *statuses);
+
+/// Fills options with the defaults.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_cost_options_init(struct morula_cost_options *options,
+                                 size_t size);
+
+/// Fills bounds that bound nothing, with the goal MORULA_GOAL_KNEE.
+///
+/// Parameters: `size` is sizeof *bounds.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_cost_bounds_init(struct morula_cost_bounds *bounds,
+                                size_t size);
+
+/// Makes the price list of a solid.
+///
+/// Parameters: `options` says how each clump is made and may be NULL for the defaults; its
+/// `spheres`, `mismatch`, `wants` and quality are not read, its deadline is one for the whole list;
+/// `cost` may be NULL for the defaults.
+/// Returns: MORULA_STATUS_OK, also when the deadline passed or the callback cancelled after there
+/// was a line (ask morula_cost_cut()); the statuses of morula_clump_from_solid() and
+/// morula_clump_timestep() where no line can be made; EMPTY; UNSUPPORTED (levels that the method
+/// cannot nest). A number of spheres that fails while others do not is left out.
+/// Ownership: the solid stays the caller's and may be freed at once; free *curve with
+/// morula_cost_free(). *curve is written only on success.
+/// Threads: any thread; the solid is only read. But for seconds the same bytes come out for any
+/// number of threads, as long as no deadline is met.
+int32_t morula_cost_curve(const struct morula_solid *solid,
+                          const struct morula_clump_options *options,
+                          const struct morula_cost_options *cost,
+                          struct morula_cost **curve);
+
+/// How many lines a price list has; at least 1.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_cost_count(const struct morula_cost *curve, size_t *count);
+
+/// Whether cancel or the deadline ended a price list before its last number of spheres: 0 or 1.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_cost_cut(const struct morula_cost *curve, int32_t *cut);
+
+/// Copies the lines, by the number of spheres.
+///
+/// Parameters: `points` has room for `capacity` structs, one after the other, all of the size that
+/// struct_size of the first says; that of the others is set.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written); STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_cost_copy(const struct morula_cost *curve,
+                         size_t capacity,
+                         struct morula_cost_point *points);
+
+/// The clump of a line, with overlap, moments and, where they were wanted, surface.
+///
+/// Parameters: `index` counts lines from 0.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; OUT_OF_MEMORY.
+/// Ownership: free *clump with morula_clump_free(); it lives on without the list. *clump is
+/// written only on success.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_cost_clump(const struct morula_cost *curve,
+                          size_t index,
+                          struct morula_clump **clump);
+
+/// Chooses a line within bounds, and says why in one sentence.
+///
+/// Parameters: `bounds` may be NULL for the knee: where more spheres stop paying; *index becomes
+/// the number of the line; the sentence goes to `text`, which has room for `capacity` bytes;
+/// `length` (may be NULL) becomes its length without the closing NUL. With `text` NULL and
+/// `capacity` 0 no sentence is copied.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (a bound that is not a number, a goal
+/// that is none); NO_SPHERES (no line is within the bounds; the message names the nearest);
+/// BUFFER_TOO_SMALL; STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_cost_choose(const struct morula_cost *curve,
+                           const struct morula_cost_bounds *bounds,
+                           size_t *index,
+                           size_t capacity,
+                           char *text,
+                           size_t *length);
+
+/// Takes a price list back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_cost_free(struct morula_cost *curve);
 
 /// Fills options with the defaults.
 ///

@@ -57,6 +57,7 @@ struct Free {
   void operator()(morula_clump *p) const noexcept { morula_clump_free(p); }
   void operator()(morula_body *p) const noexcept { morula_body_free(p); }
   void operator()(morula_files *p) const noexcept { morula_files_free(p); }
+  void operator()(morula_cost *p) const noexcept { morula_cost_free(p); }
   void operator()(morula_parent *p) const noexcept { morula_parent_free(p); }
   void operator()(morula_cache *p) const noexcept { morula_cache_free(p); }
   void operator()(morula_fragments *p) const noexcept { morula_fragments_free(p); }
@@ -592,6 +593,7 @@ class Clump {
   }
 
  private:
+  friend class Cost;
   explicit Clump(detail::Handle<morula_clump> handle) : handle_(std::move(handle)) {}
   template <class Make>
   static std::vector<Clump> many(std::size_t count, ClumpOptions options, Progress progress,
@@ -1003,6 +1005,70 @@ class Fragments {
  private:
   explicit Fragments(detail::Handle<morula_fragments> handle) : handle_(std::move(handle)) {}
   detail::Handle<morula_fragments> handle_;
+};
+
+/// morula_cost_options with the defaults.
+struct CostOptions : morula_cost_options {
+  CostOptions() : morula_cost_options(detail::defaults(morula_cost_options_init)) {}
+};
+/// morula_cost_bounds with the defaults.
+struct CostBounds : morula_cost_bounds {
+  CostBounds() : morula_cost_bounds(detail::defaults(morula_cost_bounds_init)) {}
+};
+
+/// A line that was chosen from a price list, and why.
+struct CostChoice {
+  std::size_t index;
+  std::string why;
+};
+
+/// A price list: for each number of spheres how good the clump is, how long it took and what a
+/// solver pays for it.
+class Cost {
+ public:
+  explicit Cost(const Solid &solid, const ClumpOptions &options = {}, const CostOptions &cost = {},
+                Progress progress = {})
+      : handle_(detail::made<morula_cost>(
+            options, std::move(progress), [&](const auto &o, morula_cost **out) {
+              return morula_cost_curve(solid.get(), &o, &cost, out);
+            })) {}
+
+  std::size_t size() const {
+    std::size_t n = 0;
+    check(morula_cost_count(get(), &n));
+    return n;
+  }
+  /// Whether cancel or the deadline ended it early.
+  bool cut() const {
+    std::int32_t cut = 0;
+    check(morula_cost_cut(get(), &cut));
+    return cut != 0;
+  }
+  /// All lines, by the number of spheres.
+  std::vector<morula_cost_point> points() const {
+    std::vector<morula_cost_point> all(size());
+    all[0].struct_size = sizeof all[0];
+    check(morula_cost_copy(get(), all.size(), all.data()));
+    return all;
+  }
+  /// The clump of a line, which lives on without the list.
+  Clump clump(std::size_t index) const {
+    morula_clump *raw = nullptr;
+    check(morula_cost_clump(get(), index, &raw));
+    return Clump(detail::Handle<morula_clump>(raw));
+  }
+  /// The best line within bounds; by default the knee, where more spheres stop paying.
+  CostChoice choose(const CostBounds &bounds = {}) const {
+    CostChoice choice{0, {}};
+    choice.why = detail::text([&](std::size_t capacity, char *to, std::size_t *length) {
+      return morula_cost_choose(get(), &bounds, &choice.index, capacity, to, length);
+    });
+    return choice;
+  }
+  const morula_cost *get() const noexcept { return handle_.get(); }
+
+ private:
+  detail::Handle<morula_cost> handle_;
 };
 
 /// Rotations (w, x, y, z) drawn evenly from all: the same for the same seed.

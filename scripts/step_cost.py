@@ -39,13 +39,19 @@ boundary p p p
 newton off
 """
 CONTACT = f"""\
-pair_style gran/hooke/history {STIFF} NULL 2.0 NULL 0.5 1
+pair_style gran/hooke/history {{stiff}} NULL {{damping}} NULL 0.5 1
 pair_coeff * *
 timestep {STEP}
 neighbor {SKIN} bin
 thermo_style custom step
 """
 LISTS = f"neigh_modify every {REBUILD} delay 0 check no one 100000 page 2000000\n"
+
+
+def contact(n):
+    """Softer springs of more spheres, as more of them share a contact: else the step is too long."""
+    share = min(1, 30 / n)
+    return CONTACT.format(stiff=STIFF * share, damping=2 * share)
 
 
 def clump(morula, n, folder):
@@ -91,7 +97,7 @@ fix prop all property/atom mol ghost yes
 create_atoms 0 box mol clump 4711
 neigh_modify exclude molecule/intra all
 comm_modify cutoff 2.5
-{CONTACT}neigh_modify delay 0 every 5 check yes
+{contact(30)}neigh_modify delay 0 every 5 check yes
 fix rigid all rigid/small molecule mol clump
 fix press all deform 1 x final {-BOX / 2} {BOX / 2} y final {-BOX / 2} {BOX / 2} z final {-BOX / 2} {BOX / 2} remap x flip no
 thermo 1000
@@ -193,7 +199,7 @@ def measure(morula, n, places, folder, repeat):
         text += "neigh_modify exclude molecule/intra all\nfix rigid all rigid/small molecule\n"
     else:
         text += "fix move all nve/sphere\n"
-    text += CONTACT + LISTS
+    text += contact(n) + LISTS
     # About the same time for every n, and always whole intervals between lists.
     steps = REBUILD * max(2, int(16000 / (copies ** 3 * REBUILD * (1 + n / 4))))
     text += f"run {REBUILD}\n" + f"run {steps}\n" * repeat

@@ -8,13 +8,14 @@ fn root() -> PathBuf {
 }
 
 /// The header's order of reading.
-const FILES: [&str; 23] = [
+const FILES: [&str; 25] = [
     "status",
     "callbacks",
     "choices",
     "structs",
     "mass_structs",
     "fragment_structs",
+    "cost_structs",
     "shape",
     "file",
     "voxels",
@@ -24,6 +25,7 @@ const FILES: [&str; 23] = [
     "clump",
     "clump_read",
     "clumps",
+    "cost",
     "body",
     "body_read",
     "export",
@@ -99,7 +101,7 @@ fn structs_have_no_padding_and_the_size_that_the_library_says() {
         assert_eq!(sum_of_fields(&header, &name), size, "{name} has padding");
     }
     // Beside the eight handles.
-    assert_eq!(seen + 8, header.matches("\ntypedef struct morula_").count());
+    assert_eq!(seen + 9, header.matches("\ntypedef struct morula_").count());
 }
 
 /// Adds up the sizes of a struct's fields as the header declares them.

@@ -64,6 +64,9 @@ contains
     type(morula_fragment) :: fragment
     type(morula_break_totals) :: break_totals
     type(morula_cache_counts) :: cache_counts
+    type(morula_cost_options) :: cost_options
+    type(morula_cost_point) :: cost_point
+    type(morula_cost_bounds) :: cost_bounds
     type(morula_mass_options) :: mass_options
     type(morula_masses) :: masses
     type(morula_contact_options) :: contact_options
@@ -88,7 +91,10 @@ contains
     call same_size(MORULA_STRUCT_FRAGMENT, c_sizeof(fragment))
     call same_size(MORULA_STRUCT_BREAK_TOTALS, c_sizeof(break_totals))
     call same_size(MORULA_STRUCT_CACHE_COUNTS, c_sizeof(cache_counts))
-    call check(morula_sizeof(MORULA_STRUCT_CACHE_COUNTS + 1) == 0, 'every struct is compared')
+    call same_size(MORULA_STRUCT_COST_OPTIONS, c_sizeof(cost_options))
+    call same_size(MORULA_STRUCT_COST_POINT, c_sizeof(cost_point))
+    call same_size(MORULA_STRUCT_COST_BOUNDS, c_sizeof(cost_bounds))
+    call check(morula_sizeof(MORULA_STRUCT_COST_BOUNDS + 1) == 0, 'every struct is compared')
   end subroutine sizes
 
   subroutine same_size(which, ours)

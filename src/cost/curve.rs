@@ -123,7 +123,7 @@ pub struct Point {
 pub struct Curve {
     /// By the numbers of spheres asked for.
     pub points: Vec<Point>,
-    /// The clump of each point.
+    /// The clump of each point, with its quality.
     pub clumps: Vec<Clump>,
     /// Numbers of spheres for which there is no clump, and why.
     pub failed: Vec<(usize, Error)>,
@@ -154,9 +154,10 @@ pub fn curve(solid: &Solid, options: &CurveOptions, run: &Run) -> Result<Curve> 
         cut: false,
     };
     let start = Instant::now();
+    let first = options.counts.first().copied().unwrap_or(0);
     let most = options.counts.last().copied().unwrap_or(0);
     let mut series = Series::new(solid, &options.generate, options.levels, most)?;
-    run.within([0.0, 0.05], || series.prepare(run))?;
+    run.within([0.0, 0.05], || series.prepare(first, run))?;
     made.prepared = start.elapsed().as_secs_f64();
     let prices = Prices::new(solid, options, made.diameter)?;
     let part = |k: usize| 0.05 + 0.95 * k as f64 / n as f64;
@@ -168,7 +169,7 @@ pub fn curve(solid: &Solid, options: &CurveOptions, run: &Run) -> Result<Curve> 
         }
         run.count_anew();
         let level = run.within([part(k), part(k + 1)], || {
-            let clump = run.within([0.0, 0.6], || {
+            let mut clump = run.within([0.0, 0.6], || {
                 run.in_seconds(options.seconds, || series.next(asked, run))
             })?;
             let own = clump.counters.seconds[Stage::Generate as usize];
@@ -176,7 +177,7 @@ pub fn curve(solid: &Solid, options: &CurveOptions, run: &Run) -> Result<Curve> 
             let alone = options.levels == Levels::Free;
             let seconds = [if alone { made.prepared + own } else { so_far }, so_far];
             // A clump whose figures were not measured is none of the list.
-            let point = run.within([0.6, 1.0], || prices.point(asked, &clump, seconds, run))?;
+            let point = run.within([0.6, 1.0], || prices.point(asked, &mut clump, seconds, run))?;
             Ok((clump, point))
         });
         match level {
@@ -250,7 +251,7 @@ impl<'a> Prices<'a> {
     fn point(
         &self,
         asked: usize,
-        clump: &Clump,
+        clump: &mut Clump,
         [seconds, seconds_so_far]: [f64; 2],
         run: &Run,
     ) -> Result<Point> {
@@ -269,7 +270,7 @@ impl<'a> Prices<'a> {
         let step_factor = time_step.clump / self.ball.clump;
         let step_cost = o.step.cost(spheres.len());
         let least = spheres.iter().map(|s| s.radius).fold(f64::MAX, f64::min);
-        Ok(Point {
+        let point = Point {
             asked,
             spheres: spheres.len(),
             mismatch: q.mismatch,
@@ -290,7 +291,9 @@ impl<'a> Prices<'a> {
             step_cost,
             time_cost: step_cost / step_factor,
             stopped: clump.stopped,
-        })
+        };
+        clump.quality = Some(q);
+        Ok(point)
     }
 }
 

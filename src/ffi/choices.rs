@@ -38,6 +38,12 @@ pub const MORULA_STRUCT_FRAGMENT: i32 = 17;
 pub const MORULA_STRUCT_BREAK_TOTALS: i32 = 18;
 /// morula_cache_counts, for morula_sizeof().
 pub const MORULA_STRUCT_CACHE_COUNTS: i32 = 19;
+/// morula_cost_options, for morula_sizeof().
+pub const MORULA_STRUCT_COST_OPTIONS: i32 = 20;
+/// morula_cost_point, for morula_sizeof().
+pub const MORULA_STRUCT_COST_POINT: i32 = 21;
+/// morula_cost_bounds, for morula_sizeof().
+pub const MORULA_STRUCT_COST_BOUNDS: i32 = 22;
 
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 pub const MORULA_BODIES_REFUSE: i32 = 0;
@@ -125,6 +131,30 @@ pub const MORULA_EFFORT_DRAFT: i32 = 0;
 pub const MORULA_EFFORT_NORMAL: i32 = 1;
 /// Of the same: seconds.
 pub const MORULA_EFFORT_THOROUGH: i32 = 2;
+
+/// Levels of detail that have nothing to do with each other: each is what a call of its own gives
+/// (the default).
+pub const MORULA_LEVELS_FREE: i32 = 0;
+/// Each level starts from the one before where the method can (MORULA_METHOD_BEST without
+/// symmetry), which is quicker.
+pub const MORULA_LEVELS_CHAINED: i32 = 1;
+/// Each level holds all spheres of the one before, in the same order, and further ones after them:
+/// MORULA_METHOD_BEST, MORULA_METHOD_COVER, MORULA_METHOD_EUCLIDEAN.
+pub const MORULA_LEVELS_NESTED: i32 = 2;
+
+/// Where more spheres stop paying: the line of a price list that lies farthest below the straight
+/// one from first to last, on logarithmic axes of the cost of a step and of D (the default).
+pub const MORULA_GOAL_KNEE: i32 = 0;
+/// Fewest spheres.
+pub const MORULA_GOAL_SPHERES: i32 = 1;
+/// Least mismatch D.
+pub const MORULA_GOAL_MISMATCH: i32 = 2;
+/// Fewest seconds of the method.
+pub const MORULA_GOAL_SECONDS: i32 = 3;
+/// Cheapest step of the solver.
+pub const MORULA_GOAL_STEP_COST: i32 = 4;
+/// Cheapest simulated time.
+pub const MORULA_GOAL_TIME_COST: i32 = 5;
 
 /// MORULA_METHOD_BEST: no symmetry but by chance (the default).
 pub const MORULA_SYMMETRY_NONE: i32 = 0;

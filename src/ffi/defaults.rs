@@ -2,6 +2,7 @@
 //! had in the first release.
 
 use super::choices::*;
+use super::cost_structs::*;
 use super::fragment_structs::*;
 use super::mass_structs::*;
 use super::options::Versioned;
@@ -199,6 +200,40 @@ versioned!(
         angular_velocity: [0.0; 3],
     }
 );
+versioned!(
+    morula_cost_options, 120;
+    morula_cost_options {
+        struct_size: size_of::<Self>(),
+        counts: std::ptr::null(),
+        count: 0,
+        most: 100,
+        seconds: 0.0,
+        density: 1.0,
+        contact: std::ptr::null(),
+        step: crate::cost::StepModel::LAMMPS.step,
+        lists: crate::cost::StepModel::LAMMPS.lists,
+        rebuild: crate::cost::StepModel::LAMMPS.rebuild,
+        levels: MORULA_LEVELS_FREE,
+        surface: 1,
+        masses: 1,
+        quality_columns: 0,
+    }
+);
+versioned!(
+    morula_cost_bounds, 72;
+    morula_cost_bounds {
+        struct_size: size_of::<Self>(),
+        spheres: 0,
+        mismatch: 0.0,
+        coverage: 0.0,
+        surface: 0.0,
+        seconds: 0.0,
+        step_cost: 0.0,
+        time_cost: 0.0,
+        goal: MORULA_GOAL_KNEE,
+        reserved: 0,
+    }
+);
 /// All-zero structs: every field of these is a number.
 macro_rules! filled {
     ($($name:ident $first:expr),*) => {$(
@@ -208,7 +243,7 @@ macro_rules! filled {
 filled!(
     morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 64,
     morula_counters 112, morula_masses 80, morula_timestep 56,
-    morula_fragment 368, morula_break_totals 48, morula_cache_counts 48
+    morula_fragment 368, morula_break_totals 48, morula_cost_point 168, morula_cache_counts 48
 );
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -241,5 +276,8 @@ mod tests {
         listed::<morula_fragment>();
         listed::<morula_break_totals>();
         listed::<morula_cache_counts>();
+        listed::<morula_cost_options>();
+        listed::<morula_cost_point>();
+        listed::<morula_cost_bounds>();
     }
 }

@@ -7,6 +7,7 @@
 //! does not know are zero.
 
 use super::choices::*;
+use super::cost_structs::*;
 use super::fragment_structs::*;
 use super::mass_structs::*;
 use super::structs::*;
@@ -147,6 +148,9 @@ pub(super) fn size_of_struct(which: i32) -> usize {
         MORULA_STRUCT_FRAGMENT => size_of::<morula_fragment>(),
         MORULA_STRUCT_BREAK_TOTALS => size_of::<morula_break_totals>(),
         MORULA_STRUCT_CACHE_COUNTS => size_of::<morula_cache_counts>(),
+        MORULA_STRUCT_COST_OPTIONS => size_of::<morula_cost_options>(),
+        MORULA_STRUCT_COST_POINT => size_of::<morula_cost_point>(),
+        MORULA_STRUCT_COST_BOUNDS => size_of::<morula_cost_bounds>(),
         _ => 0,
     }
 }

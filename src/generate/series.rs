@@ -54,10 +54,10 @@ impl<'a> Series<'a> {
         Ok(Series { solid, options, levels, most, memory, last: None })
     }
 
-    /// Makes what all levels read, so that none of them pays for the others.
-    pub(crate) fn prepare(&mut self, run: &Run) -> Result<()> {
+    /// Makes what all levels from `first` spheres on read, so that none of them pays for the others.
+    pub(crate) fn prepare(&mut self, first: usize, run: &Run) -> Result<()> {
         run.check(0.0, "measuring the distances of cells")?;
-        let options = GenerateOptions { spheres: self.most, ..self.options.clone() };
+        let options = GenerateOptions { spheres: first, ..self.options.clone() };
         match options.method {
             Method::Best => best::prepare(self.solid, &options, &mut self.memory, run)?,
             Method::Mss => self.solid.find_inside(run)?,

@@ -56,18 +56,16 @@ fn best(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     after(solid, options, &mut Memory::default(), run)
 }
 
-/// Makes the field that all levels of these options share, but for [`Effort::Draft`], of which each
-/// level has its own.
+/// Makes the field that levels of these options share: all, or of [`Effort::Draft`] those of about as
+/// many spheres.
 pub(super) fn prepare(
     solid: &Solid,
     options: &GenerateOptions,
     memory: &mut Memory,
     run: &Run,
 ) -> Result<()> {
-    if options.effort != Effort::Draft {
-        let planes = limits::planes(&options.best, solid.frame());
-        memory.field(solid, &planes, options.effort.plan(options.spheres).cells, run)?;
-    }
+    let planes = limits::planes(&options.best, solid.frame());
+    memory.field(solid, &planes, options.effort.plan(options.spheres).cells, run)?;
     Ok(())
 }
 
