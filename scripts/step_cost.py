@@ -50,7 +50,7 @@ LISTS = f"neigh_modify every {REBUILD} delay 0 check no one 100000 page 2000000\
 
 def contact(n):
     """Softer springs of more spheres, as more of them share a contact: else the step is too long."""
-    share = min(1, 30 / n)
+    share = min(1, (30 / n) ** 2)
     return CONTACT.format(stiff=STIFF * share, damping=2 * share)
 
 

@@ -4,6 +4,7 @@
 
 mod clumps;
 mod compare;
+mod cost;
 mod failures;
 mod fragments;
 mod masses;

@@ -7,6 +7,7 @@
 mod breaking;
 mod clump;
 mod compare;
+mod cost;
 mod covering;
 mod demands;
 mod export;
@@ -53,6 +54,8 @@ enum Command {
     Export(Box<export::Args>),
     /// Draw a clump beside its target
     View(Box<view::Args>),
+    /// Say what accuracy costs in time: a price list by the number of spheres, as a table and a page
+    Cost(Box<cost::Args>),
     /// Make clumps of a shape by every method, side by side in a table and a picture
     Compare(Box<compare::Args>),
 }
@@ -78,6 +81,7 @@ fn main() -> ExitCode {
         Command::Measure(args) => measure::run(args),
         Command::Export(args) => export::run(args),
         Command::View(args) => view::run(args),
+        Command::Cost(args) => cost::run(args),
         Command::Compare(args) => compare::run(args),
     };
     match done {

@@ -50,7 +50,8 @@ impl Entry {
         self.to_possible_value().map_or(String::new(), |v| v.get_name().to_string())
     }
 
-    fn options(self, spheres: usize) -> GenerateOptions {
+    /// What the library is asked for.
+    pub fn options(self, spheres: usize) -> GenerateOptions {
         let (method, effort) = match self {
             Entry::Mss => (Method::Mss, Effort::Normal),
             Entry::BestDraft => (Method::Best, Effort::Draft),

@@ -1,7 +1,7 @@
 //! `morula compare`: clumps of one shape by every method, side by side as a table and a picture.
 
 mod cpu;
-mod entry;
+pub mod entry;
 mod picture;
 mod table;
 

@@ -301,6 +301,11 @@ impl Fineness {
 
     /// The solid of a shape, read from `input`, on this grid.
     pub fn solid(&self, shape: &Shape, input: &str, reading: &Reading, run: &Run) -> Done<Solid> {
+        Solid::new(shape, &self.options(shape, input, reading)?, run).about(input)
+    }
+
+    /// How the solid of a shape, read from `input`, is made.
+    pub fn options(&self, shape: &Shape, input: &str, reading: &Reading) -> Done<SolidOptions> {
         if let Body::Voxels(_) = *shape.body {
             refuse(input, "voxels, whose own cells are the grid", &self.given())?;
         }
@@ -311,11 +316,10 @@ impl Fineness {
             (None, Along::Shortest) => Resolution::CellsShortest(cells),
             (None, Along::Diameter) => Resolution::CellsDiameter(cells),
         };
-        let options = SolidOptions {
+        Ok(SolidOptions {
             resolution,
             memory_limit: reading.memory_limit,
             ..SolidOptions::default()
-        };
-        Solid::new(shape, &options, run).about(input)
+        })
     }
 }
