@@ -15,6 +15,7 @@ pub mod engine;
 mod integrate;
 pub mod narrow;
 pub mod rotate;
+pub mod scene;
 pub mod state;
 pub mod template;
 mod tree;

@@ -27,7 +27,7 @@ pub use record::Record;
 pub use save::{save, save_in};
 pub use surface::{ply, stl};
 pub use table::csv;
-pub use vtp::vtp;
+pub use vtp::{vtp, vtp_points};
 
 use crate::error::{Error, Result, collected, push};
 use crate::mass::single_precision;

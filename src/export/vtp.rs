@@ -1,11 +1,29 @@
 //! VTK XML PolyData: a vertex for each sphere with the arrays `radius`, `sphere` (its number) and
 //! `mass` (in ParaView: Point Gaussian, or Glyph with a sphere of radius 1 scaled by `radius`).
 
-use crate::math::Sphere;
+use crate::math::{Sphere, Vec3};
 use std::fmt::{Display, Write};
 
 /// The file; without masses where there are none.
 pub fn vtp(spheres: &[Sphere], masses: &[f64]) -> String {
+    points(spheres, |out| {
+        array(out, ("Int64", "sphere", 1), 0..spheres.len());
+        if !masses.is_empty() {
+            array(out, ("Float64", "mass", 1), masses.iter().map(|m| format!("{m:?}")));
+        }
+    })
+}
+
+/// Spheres of many bodies, with the arrays `radius`, `body` (its label) and `velocity`.
+pub fn vtp_points(spheres: &[Sphere], bodies: &[u64], velocities: &[Vec3]) -> String {
+    points(spheres, |out| {
+        array(out, ("Int64", "body", 1), bodies.iter());
+        let three = |v: &Vec3| format!("{:?} {:?} {:?}", v.x, v.y, v.z);
+        array(out, ("Float64", "velocity", 3), velocities.iter().map(three));
+    })
+}
+
+fn points(spheres: &[Sphere], further: impl FnOnce(&mut String)) -> String {
     let n = spheres.len();
     let mut out = format!(
         "<?xml version=\"1.0\"?>\n\
@@ -16,10 +34,7 @@ pub fn vtp(spheres: &[Sphere], masses: &[f64]) -> String {
          <PointData Scalars=\"radius\">\n"
     );
     array(&mut out, ("Float64", "radius", 1), spheres.iter().map(|s| format!("{:?}", s.radius)));
-    array(&mut out, ("Int64", "sphere", 1), 0..n);
-    if !masses.is_empty() {
-        array(&mut out, ("Float64", "mass", 1), masses.iter().map(|m| format!("{m:?}")));
-    }
+    further(&mut out);
     out.push_str("</PointData>\n<Points>\n");
     let point = |s: &Sphere| format!("{:?} {:?} {:?}", s.center.x, s.center.y, s.center.z);
     array(&mut out, ("Float64", "points", 3), spheres.iter().map(point));

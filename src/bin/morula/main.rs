@@ -21,6 +21,8 @@ mod measure;
 mod method;
 mod progress;
 mod sample;
+#[cfg(feature = "dem")]
+mod simulate;
 mod view;
 mod weighing;
 mod write;
@@ -58,6 +60,9 @@ enum Command {
     Cost(Box<cost::Args>),
     /// Make clumps of a shape by every method, side by side in a table and a picture
     Compare(Box<compare::Args>),
+    /// Simulate rigid clumps as a scene file says
+    #[cfg(feature = "dem")]
+    Simulate(Box<simulate::Args>),
 }
 
 fn main() -> ExitCode {
@@ -83,6 +88,8 @@ fn main() -> ExitCode {
         Command::View(args) => view::run(args),
         Command::Cost(args) => cost::run(args),
         Command::Compare(args) => compare::run(args),
+        #[cfg(feature = "dem")]
+        Command::Simulate(args) => simulate::run(args),
     };
     match done {
         Ok(()) | Err(Fail::Pipe) => ExitCode::SUCCESS,

@@ -32,6 +32,15 @@ impl Bar {
         }
     }
 
+    /// How far it is, and what is to be said of it.
+    #[cfg(feature = "dem")]
+    pub fn set(&self, part: f64, what: &str) {
+        if let Some(bar) = &self.0 {
+            bar.set_position((part * STEPS as f64) as u64);
+            bar.set_message(what.to_string());
+        }
+    }
+
     /// A run that reports to this bar.
     pub fn attach<'a>(&self, run: Run<'a>) -> Run<'a> {
         match &self.0 {

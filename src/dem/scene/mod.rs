@@ -1,0 +1,17 @@
+//! Scenes: files that say what is simulated, and what of it is written down.
+
+mod build;
+pub mod file;
+mod frames;
+mod keys;
+mod materials;
+mod play;
+mod templates;
+mod watch;
+
+pub use build::{Scene, build};
+pub use file::SceneFile;
+pub use keys::parse;
+pub use play::{Over, Place, Sink, play};
+pub use templates::Made;
+pub use watch::Watch;

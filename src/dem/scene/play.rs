@@ -1,0 +1,99 @@
+//! A scene from its start to its end.
+
+use super::Scene;
+use super::frames::frame;
+use crate::dem::energy;
+use crate::error::Result;
+use crate::run::Run;
+
+/// Steps between two looks at whether the run is over.
+const LOOK: u64 = 256;
+
+/// Where a running scene is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// Time so far, and when it ends.
+    pub time: f64,
+    /// The end.
+    pub end: f64,
+    /// Steps so far.
+    pub steps: u64,
+}
+
+/// Takes what a run writes down. An error of its ends the run.
+pub trait Sink {
+    /// A line of measures, in the order of [`super::Watch::names`].
+    fn row(&mut self, values: &[Option<f64>]) -> Result<()>;
+    /// Frame `number`, from 0, as a VTP file.
+    fn frame(&mut self, number: u64, vtp: &str) -> Result<()>;
+    /// Asked now and then; what it returns says whether to go on.
+    fn at(&mut self, place: &Place) -> bool;
+}
+
+/// Why a run was over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Over {
+    /// Its time was.
+    End,
+    /// The bodies were at rest.
+    Rest,
+    /// They had parted.
+    Parted,
+    /// The caller wanted no more.
+    Cancelled,
+}
+
+/// Runs a scene on from where it is to its end.
+pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
+    let dt = scene.engine.setup().dt;
+    let count = |time: f64| ((time / dt).round().max(1.0)) as u64;
+    let last = count(scene.end);
+    let every = scene.every.map(count);
+    let frames = scene.frames.map(count);
+    scene.engine.start(run)?;
+    if scene.engine.steps() == 0 {
+        sink.row(&scene.watch.row(&scene.engine))?;
+        if frames.is_some() {
+            sink.frame(0, &frame(&scene.engine))?;
+        }
+    }
+    let mut contacts = scene.engine.work().contacts;
+    let mut over = Over::End;
+    while scene.engine.steps() < last {
+        let at = scene.engine.steps();
+        let next = |period: Option<u64>| period.map_or(last, |p| (at / p + 1) * p);
+        let to = last.min(next(every)).min(next(frames)).min((at / LOOK + 1) * LOOK);
+        scene.engine.advance(to - at, run)?;
+        let due = |period: Option<u64>| period.is_some_and(|p| to.is_multiple_of(p));
+        if due(every) && to < last {
+            sink.row(&scene.watch.row(&scene.engine))?;
+        }
+        if due(frames) {
+            let number = to / frames.unwrap_or(1);
+            sink.frame(number, &frame(&scene.engine))?;
+        }
+        let place = Place { time: scene.engine.time(), end: scene.end, steps: to };
+        if !sink.at(&place) {
+            over = Over::Cancelled;
+            break;
+        }
+        if let Some(rest) = scene.rest {
+            let [a, b] = energy::kinetic(scene.engine.state());
+            if a + b < rest {
+                over = Over::Rest;
+                break;
+            }
+        }
+        if scene.parted {
+            // None since the last look, and some before.
+            let now = scene.engine.work().contacts;
+            if now > 0 && now == contacts {
+                over = Over::Parted;
+                break;
+            }
+            contacts = now;
+        }
+    }
+    sink.row(&scene.watch.row(&scene.engine))?;
+    Ok(over)
+}

@@ -1,0 +1,107 @@
+//! The clumps of a scene.
+
+use super::file::{EffortName, MethodName, TargetName, TemplatePart};
+use crate::dem::Template;
+use crate::error::{Error, Result, figure};
+use crate::generate::{Effort, GenerateOptions, Method, generate};
+use crate::mass::{Body, Target};
+use crate::math::Sphere;
+use crate::run::Run;
+use crate::shape::{ImportOptions, Primitive, Shape};
+use crate::solid::{Resolution, Solid, SolidOptions};
+use std::path::Path;
+use std::sync::Arc;
+
+/// A template with what it stands for.
+#[derive(Debug, Clone)]
+pub struct Made {
+    /// Its name in the scene.
+    pub name: String,
+    /// What the engine holds of it.
+    pub template: Arc<Template>,
+    /// Its spheres in the frame of the body.
+    pub spheres: Vec<Sphere>,
+    /// The body.
+    pub body: Body,
+}
+
+/// Makes the template of this name; `folder` is where its file is looked for.
+pub(super) fn make(name: &str, part: &TemplatePart, folder: &Path, run: &Run) -> Result<Made> {
+    let bad = |what: String| Err(Error::InvalidArgument(format!("the template {name} {what}")));
+    let choices = [part.ball.is_some(), part.shape.is_some(), part.file.is_some()];
+    if choices.iter().filter(|c| **c).count() != 1 {
+        return bad("needs one of ball, shape and file".into());
+    }
+    if !(part.density.is_finite() && part.density > 0.0) {
+        return bad(format!("has the density {}, not a number above 0", figure(part.density)));
+    }
+    let whose = |e: Error| e.about(&format!("template {name}"));
+    if let Some(radius) = part.ball {
+        if !(radius.is_finite() && radius > 0.0) {
+            return bad(format!("is a ball of radius {}, not a number above 0", figure(radius)));
+        }
+        let spheres = vec![Sphere::new(crate::math::Vec3::zeros(), radius)];
+        let template = Arc::new(Template::ball(radius, part.density).map_err(whose)?);
+        let body = Body::of_union(&spheres, part.density, run).map_err(whose)?;
+        return Ok(Made { name: name.to_owned(), template, spheres, body });
+    }
+    let shape = shape_of(part, folder, run).map_err(whose)?;
+    let resolution = Resolution::CellsLongest(part.cells);
+    let solid = SolidOptions { resolution, ..SolidOptions::default() };
+    let solid = Solid::new(&shape, &solid, run).map_err(whose)?;
+    let mut options = GenerateOptions {
+        method: match part.method {
+            MethodName::Best => Method::Best,
+            MethodName::Mss => Method::Mss,
+            MethodName::Inscribed => Method::Inscribed,
+            MethodName::Cover => Method::Cover,
+        },
+        effort: match part.effort {
+            EffortName::Draft => Effort::Draft,
+            EffortName::Normal => Effort::Normal,
+            EffortName::Thorough => Effort::Thorough,
+        },
+        spheres: part.spheres,
+        ..GenerateOptions::default()
+    };
+    options.best.equal_volume = part.equal_volume;
+    if part.equal_volume && part.method != MethodName::Best {
+        return bad("is of equal volume, which the method best alone makes".into());
+    }
+    let clump = generate(&solid, &options, run).map_err(whose)?;
+    let target = match part.inertia {
+        TargetName::Solid => Target::Solid,
+        TargetName::Union => Target::Union,
+    };
+    let body = Body::new(target, &solid, &clump.spheres, part.density, run).map_err(whose)?;
+    let template = Arc::new(Template::of_body(&clump.spheres, &body).map_err(whose)?);
+    Ok(Made { name: name.to_owned(), template, spheres: body.to_body(&clump.spheres), body })
+}
+
+fn shape_of(part: &TemplatePart, folder: &Path, run: &Run) -> Result<Shape> {
+    let import = ImportOptions { length_unit: part.scale, ..ImportOptions::default() };
+    let Some(name) = &part.shape else { return from_file(part, &import, folder, run) };
+    let mut particle = Primitive::from_name(name)?;
+    for (key, value) in &part.set {
+        particle.set(key, *value)?;
+    }
+    Shape::from_primitive(&particle, part.segments, &import, run)
+}
+
+#[cfg(feature = "io")]
+fn from_file(
+    part: &TemplatePart,
+    import: &ImportOptions,
+    folder: &Path,
+    run: &Run,
+) -> Result<Shape> {
+    use crate::shape::read::FileOptions;
+    let options = FileOptions { import: import.clone(), ..FileOptions::default() };
+    Shape::from_file(&folder.join(part.file.as_deref().unwrap_or_default()), &options, run)
+}
+
+#[cfg(not(feature = "io"))]
+fn from_file(part: &TemplatePart, _: &ImportOptions, _: &Path, _: &Run) -> Result<Shape> {
+    let file = part.file.as_deref().unwrap_or_default();
+    Err(Error::Unsupported(format!("{file} is not read without the feature io")))
+}

@@ -1,0 +1,197 @@
+//! What of a simulation is measured.
+
+use crate::dem::energy;
+use crate::dem::engine::Engine;
+use crate::error::{Error, Result, push};
+
+/// Measures in their order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Watch {
+    names: Vec<String>,
+    measures: Vec<Measure>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Measure {
+    Whole(Whole),
+    /// A figure of the body with this label.
+    Of(u64, Own),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Whole {
+    Time,
+    Steps,
+    Bodies,
+    Kinetic,
+    Translation,
+    Rotation,
+    Potential,
+    Stored,
+    Energy,
+    Contacts,
+    Overlap,
+    Speed,
+    Top,
+    Momentum(usize),
+    AngularMomentum(usize),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Own {
+    Position(usize),
+    Velocity(usize),
+    Spin(usize),
+    Quaternion(usize),
+}
+
+const WHOLE: [(&str, Whole); 19] = [
+    ("time", Whole::Time),
+    ("steps", Whole::Steps),
+    ("bodies", Whole::Bodies),
+    ("kinetic", Whole::Kinetic),
+    ("translation", Whole::Translation),
+    ("rotation", Whole::Rotation),
+    ("potential", Whole::Potential),
+    ("stored", Whole::Stored),
+    ("energy", Whole::Energy),
+    ("contacts", Whole::Contacts),
+    ("overlap", Whole::Overlap),
+    ("speed", Whole::Speed),
+    ("top", Whole::Top),
+    ("momentum-x", Whole::Momentum(0)),
+    ("momentum-y", Whole::Momentum(1)),
+    ("momentum-z", Whole::Momentum(2)),
+    ("angular-momentum-x", Whole::AngularMomentum(0)),
+    ("angular-momentum-y", Whole::AngularMomentum(1)),
+    ("angular-momentum-z", Whole::AngularMomentum(2)),
+];
+
+const OWN: [(&str, Own); 13] = [
+    ("x", Own::Position(0)),
+    ("y", Own::Position(1)),
+    ("z", Own::Position(2)),
+    ("vx", Own::Velocity(0)),
+    ("vy", Own::Velocity(1)),
+    ("vz", Own::Velocity(2)),
+    ("wx", Own::Spin(0)),
+    ("wy", Own::Spin(1)),
+    ("wz", Own::Spin(2)),
+    ("qw", Own::Quaternion(0)),
+    ("qx", Own::Quaternion(1)),
+    ("qy", Own::Quaternion(2)),
+    ("qz", Own::Quaternion(3)),
+];
+
+impl Watch {
+    /// The measures of these names: those of the whole, or `x:3` and the like for the body with the label 3 (bodies are
+    /// numbered as they come). Without names: time, kinetic, potential, stored, energy, contacts.
+    pub(super) fn new(names: Option<&[String]>, bodies: usize) -> Result<Watch> {
+        let usual = ["time", "kinetic", "potential", "stored", "energy", "contacts"];
+        let names: Vec<String> = match names {
+            Some(names) => names.to_vec(),
+            None => usual.map(String::from).to_vec(),
+        };
+        let mut measures = Vec::new();
+        for name in &names {
+            push("measures", &mut measures, measure(name, bodies)?)?;
+        }
+        Ok(Watch { names, measures })
+    }
+
+    /// Their names.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Their values now; those of a body that is gone are those of nothing: NaN is not written, an empty field is.
+    pub fn row(&self, engine: &Engine) -> Vec<Option<f64>> {
+        let s = engine.state();
+        let [straight, turning] = energy::kinetic(s);
+        let potential = engine.setup().gravity.map_or(0.0, |g| energy::potential(s, &g));
+        let needs = |m: &Measure| {
+            matches!(
+                m,
+                Measure::Whole(Whole::Stored | Whole::Energy | Whole::Contacts | Whole::Overlap)
+            )
+        };
+        let contacts = if self.measures.iter().any(needs) {
+            engine.contacts()
+        } else {
+            [Vec::new(), Vec::new()]
+        };
+        let each = || contacts.iter().flatten();
+        let stored: f64 = each().map(|c| c.energy).sum();
+        let of = |m: &Measure| match *m {
+            Measure::Whole(w) => Some(match w {
+                Whole::Time => engine.time(),
+                Whole::Steps => engine.steps() as f64,
+                Whole::Bodies => s.len() as f64,
+                Whole::Kinetic => straight + turning,
+                Whole::Translation => straight,
+                Whole::Rotation => turning,
+                Whole::Potential => potential,
+                Whole::Stored => stored,
+                Whole::Energy => straight + turning + potential + stored,
+                Whole::Contacts => each().count() as f64,
+                Whole::Overlap => each().map(|c| c.overlap).fold(0.0, f64::max),
+                Whole::Speed => s.velocity.iter().map(|v| v.norm()).fold(0.0, f64::max),
+                Whole::Top => top(engine),
+                Whole::Momentum(k) => energy::momentum(s)[k],
+                Whole::AngularMomentum(k) => energy::angular_momentum(s)[k],
+            }),
+            Measure::Of(label, own) => {
+                let i = s.label.iter().position(|l| *l == label)?;
+                Some(match own {
+                    Own::Position(k) => s.position[i][k],
+                    Own::Velocity(k) => s.velocity[i][k],
+                    Own::Spin(k) => s.angular_velocity(i)[k],
+                    Own::Quaternion(k) => s.orientation[i].quaternion[k],
+                })
+            }
+        };
+        self.measures.iter().map(of).collect()
+    }
+}
+
+/// The highest point of any sphere: against gravity, or along z without it; 0 without bodies.
+fn top(engine: &Engine) -> f64 {
+    let s = engine.state();
+    let up = engine.setup().gravity.map_or(crate::math::Vec3::z(), |g| -g / g.amax()).normalize();
+    let mut most: Option<f64> = None;
+    for i in 0..s.len() {
+        let r = s.orientation[i].matrix();
+        for sphere in s.template_of(i).spheres() {
+            let at = up.dot(&(s.position[i] + r * sphere.center)) + sphere.radius;
+            most = Some(most.map_or(at, |m| m.max(at)));
+        }
+    }
+    most.unwrap_or(0.0)
+}
+
+fn measure(name: &str, bodies: usize) -> Result<Measure> {
+    if let Some((_, w)) = WHOLE.iter().find(|w| w.0 == name) {
+        return Ok(Measure::Whole(*w));
+    }
+    if let Some((own, label)) = name.split_once(':')
+        && let Some((_, own)) = OWN.iter().find(|o| o.0 == own)
+    {
+        let label: u64 = label.parse().map_err(|_| {
+            Error::InvalidArgument(format!(
+                "the measure {name} names no body: {label} is no number"
+            ))
+        })?;
+        if bodies > 0 && label >= bodies as u64 {
+            return Err(Error::InvalidArgument(format!(
+                "the measure {name} names a body that is not there: {bodies} are"
+            )));
+        }
+        return Ok(Measure::Of(label, *own));
+    }
+    let all = WHOLE.iter().map(|w| w.0).chain(OWN.iter().map(|o| o.0));
+    let near = all.max_by_key(|n| (strsim::jaro_winkler(name, n) * 1e6) as u64);
+    Err(Error::InvalidArgument(format!(
+        "unknown measure {name}; the nearest is {}",
+        near.unwrap_or("time")
+    )))
+}

@@ -1,0 +1,164 @@
+//! Scene files as a user writes them.
+#![cfg(feature = "dem")]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use morula::dem::scene::{Over, Place, Scene, Sink, build, parse, play};
+use morula::{Error, Result, Run};
+use std::path::Path;
+
+const BALL: &str = r#"
+[run]
+end = 0.004
+step_part = 0.005
+parted = true
+[effects]
+normal = "linear"
+damping = "contact"
+[materials.steel]
+stiffness = 1e4
+restitution = 0.6
+[templates.ball]
+ball = 0.01
+density = 2500
+material = "steel"
+[[walls]]
+plane = { normal = [0, 0, 2], offset = 0.5 }
+material = "steel"
+[[bodies]]
+template = "ball"
+position = [0, 0, 0.51001]
+velocity = [0, 0, -1]
+[output]
+every = 1e-3
+frames = 2e-3
+measures = ["time", "vz:0", "energy"]
+[quick]
+output = { frames = 1 }
+"#;
+
+fn scene(text: &str, set: &[(&str, &str)]) -> Result<Scene> {
+    let set: Vec<_> = set.iter().map(|(p, v)| (p.to_string(), v.to_string())).collect();
+    build(&parse(text, false, &set)?, Path::new("."), &Run::serial())
+}
+
+/// Keeps what a run writes.
+#[derive(Default)]
+struct Kept {
+    rows: Vec<Vec<Option<f64>>>,
+    frames: Vec<(u64, String)>,
+    stop: Option<u64>,
+}
+
+impl Sink for Kept {
+    fn row(&mut self, values: &[Option<f64>]) -> Result<()> {
+        self.rows.push(values.to_vec());
+        Ok(())
+    }
+    fn frame(&mut self, number: u64, vtp: &str) -> Result<()> {
+        self.frames.push((number, vtp.to_owned()));
+        Ok(())
+    }
+    fn at(&mut self, place: &Place) -> bool {
+        self.stop.is_none_or(|steps| place.steps < steps)
+    }
+}
+
+#[test]
+fn a_ball_rebounds_as_its_material_says() {
+    for law in ["linear", "hertz"] {
+        let text = match law {
+            "hertz" => BALL
+                .replace("\"linear\"", "\"hertz\"")
+                .replace("stiffness = 1e4", "young = 1e8\npoisson = 0.3"),
+            _ => BALL.to_owned(),
+        };
+        let mut scene = scene(&text, &[]).unwrap();
+        let mut kept = Kept::default();
+        let over = play(&mut scene, &mut kept, &Run::serial()).unwrap();
+        assert_eq!(over, Over::Parted, "{law}");
+        let speed = kept.rows.last().unwrap()[1].unwrap();
+        assert!((speed - 0.6).abs() < 0.002, "{law}: {speed}");
+        assert_eq!(kept.rows[0][0], Some(0.0));
+        assert!(kept.frames[0].1.contains("Name=\"velocity\""));
+    }
+}
+
+#[test]
+fn a_caller_may_end_it_and_later_go_on() {
+    let run = Run::serial();
+    let text = BALL.replace("parted = true", "");
+    let mut whole = scene(&text, &[]).unwrap();
+    let mut kept = Kept::default();
+    assert_eq!(play(&mut whole, &mut kept, &run).unwrap(), Over::End);
+    let mut parts = scene(&text, &[]).unwrap();
+    let mut first = Kept { stop: Some(300), ..Kept::default() };
+    assert_eq!(play(&mut parts, &mut first, &run).unwrap(), Over::Cancelled);
+    assert!(parts.engine.steps() >= 300 && parts.engine.steps() < whole.engine.steps());
+    assert_eq!(play(&mut parts, &mut Kept::default(), &run).unwrap(), Over::End);
+    assert_eq!(parts.engine.state().velocity, whole.engine.state().velocity);
+    assert_eq!(parts.engine.state().position, whole.engine.state().position);
+}
+
+#[test]
+fn what_cannot_be_is_told() {
+    let says = |path: &str, value: &str, words: &str| {
+        let Err(e) = scene(BALL, &[(path, value)]) else { panic!("{path} = {value} is taken") };
+        assert!(e.to_string().contains(words), "{path} = {value}: {e}");
+    };
+    says("effects.gravity", "[0, 0, 0]", "effects.gravity can do nothing: it is 0");
+    says("effects.tangential", "mindlin", "the friction of steel and steel is not told");
+    says("materials.steel.friction", "0.3", "friction, but the scene names no tangential law");
+    says("effects.averaging", "true", "effects.averaging can do nothing");
+    says("effects.cohesion", "linear", "cohesion of steel and steel is not told");
+    says("effects.normal", "hertz", "a stiffness, but the scene names no linear law");
+    says("materials.steel.restitution", "1.5", "restitution of the material steel is 1.5");
+    says("materials.steel.restitution", "-0.1", "restitution of the material steel is -0.1");
+    says("materials.steel.restitution", "1", "effects.damping can do nothing");
+    says("materials.steel.stiffness", "0", "stiffness of steel and steel is 0");
+    says("run.step", "0", "time step is 0");
+    says("run.step", "1", "beyond what the clumps allow");
+    says("run.end", "nan", "run.end is NaN");
+    says("output.every", "0", "output.every is 0");
+    says(
+        "output.measures",
+        "[\"vx:0\", \"kinetc\"]",
+        "unknown measure kinetc; the nearest is kinetic",
+    );
+    says("output.measures", "[\"vx:4\"]", "a body that is not there");
+    says("bodies.0.template", "bell", "the template bell, which is not there");
+    says("bodies.0.position", "[0, 0, 0.501]", "wall 0 and body 0 overlap by 0.009 at the start");
+    says("bodies.0.velocity", "[0, nan, 0]", "body 0 has the velocity (0, NaN, 0)");
+    says("bodies.0.rotation", "[0, 0, 0, 0]", "body 0 has the rotation (0, 0, 0, 0)");
+    says("templates.ball.density", "0", "the density 0");
+    says("templates.ball.shape", "stone", "needs one of ball, shape and file");
+    says("templates.ball.material", "wood", "the template ball is of the material wood");
+    says("walls.0.material", "wood", "wall 0 is of the material wood");
+    says("walls.0.box", "{ lo = [0, 0, 0], hi = [1, 1, 1] }", "wall 0 needs one of plane");
+    let gone = BALL.replace("normal = \"linear\"\n", "").replace("stiffness = 1e4\n", "");
+    let e = scene(&gone, &[]).map(|_| ()).unwrap_err();
+    assert!(e.to_string().contains("effects.damping does nothing without effects.normal"), "{e}");
+    let fixed = [("bodies.0.fixed", "true"), ("effects.gravity", "[0, 0, -9.81]")];
+    let e = scene(BALL, &fixed).map(|_| ()).unwrap_err();
+    assert!(e.to_string().contains("every body is fixed"), "{e}");
+    assert!(matches!(e, Error::InvalidArgument(_)));
+}
+
+/// Every scene that is kept here can be read, built and begun, as it stands and as a quick one.
+#[test]
+fn the_scenes_of_the_project_are_sound() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut seen = 0;
+    for entry in std::fs::read_dir(&folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "toml") {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        for quick in [false, true] {
+            let file = parse(&text, quick, &[]).unwrap_or_else(|e| panic!("{path:?}: {e}"));
+            assert!(!file.title.is_empty(), "{path:?} has no title");
+        }
+        seen += 1;
+    }
+    assert!(seen >= 2);
+}
