@@ -24,6 +24,7 @@ pub(crate) use balls::random::Random;
 pub use baselines::OVERLAP;
 pub use best::{BestOptions, Effort, HalfSpace, Symmetry};
 pub use cover::CoverOptions;
+pub use inscribed::Bound;
 pub use many::{batch, batch_labels, levels};
 pub(crate) use many::{each, each_label};
 pub use series::Levels;
@@ -140,7 +141,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
         }
         Method::Best => best::fewest::make(solid, options, run),
         Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
-        Method::Inscribed => inscribed::inscribed(solid, options, run),
+        Method::Inscribed => inscribed::inscribed(solid, options, None, run),
         Method::Cover => cover::cover(solid, options, run),
         Method::Packed => packed::packed(solid, options, run),
         Method::Euclidean => baselines::euclidean(solid, options, run),
@@ -160,6 +161,23 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
     }
     clump.counters = run.counters();
     Ok(clump)
+}
+
+/// Makes a clump by [`Method::Inscribed`] of which no sphere leaves a further bound, such as the
+/// union of the spheres of another clump. The figures of quality are not made.
+pub fn inscribed_within(
+    solid: &Solid,
+    options: &GenerateOptions,
+    bound: Bound,
+    run: &Run,
+) -> Result<Clump> {
+    check(options, run)?;
+    if options.method != Method::Inscribed {
+        return Err(Error::InvalidArgument(
+            "a further bound is read by the method inscribed alone".into(),
+        ));
+    }
+    inscribed::inscribed(solid, options, Some(bound), run)
 }
 
 fn check(o: &GenerateOptions, run: &Run) -> Result<()> {

@@ -3,6 +3,7 @@
 
 use super::Plane;
 use crate::error::{Result, filled};
+use crate::math::Vec3;
 use crate::run::Pool;
 use crate::solid::Grid;
 use wide::f32x8;
@@ -73,6 +74,22 @@ impl Field {
                 for plane in planes {
                     *value = value.max((plane.normal.dot(&p) - plane.offset) as f32);
                 }
+            }
+        });
+    }
+
+    /// The field of what lies within a further bound, too: the distance to the nearer one.
+    pub(crate) fn narrow(
+        &mut self,
+        grid: &Grid,
+        bound: &(dyn Fn(&Vec3) -> (f64, Vec3) + Sync),
+        pool: &Pool,
+    ) {
+        let [nx, ny, _] = grid.dims;
+        pool.chunks_mut(&mut self.values, nx, |row, out| {
+            for (i, value) in out.iter_mut().enumerate().filter(|(_, v)| **v < 0.0) {
+                let p = grid.center(i, row % ny, row / ny);
+                *value = value.max(-bound(&p).0 as f32);
             }
         });
     }

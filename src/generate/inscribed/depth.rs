@@ -1,5 +1,6 @@
 //! The largest ball about a place that stays within the surface.
 
+use super::Bound;
 use crate::generate::ball::Ball;
 use crate::generate::balls::field::Field;
 use crate::generate::balls::medial;
@@ -10,6 +11,7 @@ use crate::solid::nearest::Surface;
 pub(super) struct Depth<'a> {
     pub field: &'a Field,
     pub surface: &'a Surface,
+    pub bound: Option<Bound<'a>>,
     /// How far balls may reach beyond it.
     pub tolerance: f64,
     pub least: f64,
@@ -29,11 +31,16 @@ impl Depth<'_> {
     fn inside(&self, center: [f32; 3]) -> Option<Inside> {
         let p = Vec3::from(center.map(f64::from));
         let nearest = self.surface.nearest(&p);
-        let depth = nearest.distance;
+        let (mut depth, mut point) = (nearest.distance, nearest.point);
+        if let Some((below, other)) = self.bound.map(|bound| bound(&p))
+            && below < depth
+        {
+            (depth, point) = (below, other);
+        }
         if depth + self.tolerance < self.least {
             return None;
         }
-        let way = if depth > 0.0 { (p - nearest.point) / depth } else { -nearest.normal };
+        let way = if depth > 0.0 { (p - point) / depth } else { -nearest.normal };
         // To single precision, downwards.
         let radius = ((depth + self.tolerance) as f32).next_down();
         Some(Inside { ball: Ball { center, radius }, inward: [0, 1, 2].map(|a| way[a] as f32) })
@@ -72,6 +79,8 @@ impl Depth<'_> {
     /// The ball in double precision, with the whole depth that it may have.
     pub(super) fn sphere(&self, ball: &Ball) -> Sphere {
         let center = Vec3::from(ball.center.map(f64::from));
-        Sphere::new(center, self.surface.nearest(&center).distance + self.tolerance)
+        let depth = self.surface.nearest(&center).distance;
+        let depth = self.bound.map_or(depth, |bound| depth.min(bound(&center).0));
+        Sphere::new(center, depth + self.tolerance)
     }
 }

@@ -16,7 +16,7 @@ use crate::generate::balls::dexels::Dexels;
 use crate::generate::balls::field::Field;
 use crate::generate::balls::random::Random;
 use crate::generate::select::choose;
-use crate::math::Sphere;
+use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::solid::Solid;
 use climb::Climb;
@@ -28,10 +28,15 @@ const MOST: usize = 100_000;
 /// Least radius, as a part of the body's size.
 const LEAST: f64 = 0.002;
 
+/// What balls must stay in beside the surface: for a place, unit frame, the depth there, less than 0
+/// outside, and the nearest point of what bounds it.
+pub type Bound<'a> = &'a (dyn Fn(&Vec3) -> (f64, Vec3) + Sync);
+
 /// Makes a clump.
 pub(in crate::generate) fn inscribed(
     solid: &Solid,
     options: &GenerateOptions,
+    bound: Option<Bound>,
     run: &Run,
 ) -> Result<Clump> {
     let n = check(options)?;
@@ -42,7 +47,10 @@ pub(in crate::generate) fn inscribed(
         )));
     }
     run.check(0.0, "measuring the distances of cells")?;
-    let field = Field::new(solid.grid(), solid.distance(run)?, run.pool())?;
+    let mut field = Field::new(solid.grid(), solid.distance(run)?, run.pool())?;
+    if let Some(bound) = bound {
+        field.narrow(solid.grid(), bound, run.pool());
+    }
     let plan = effort::plan(options.effort, n);
     let dexels = Dexels::new(solid, &bounds(solid)?, plan.columns, run.pool())?;
     let surface = solid.surface(run)?;
@@ -61,7 +69,7 @@ pub(in crate::generate) fn inscribed(
     let scale = solid.frame().scale;
     let least = (LEAST * size).max(options.min_radius / scale);
     let tolerance = options.tolerance / scale;
-    let depth = Depth { field: &field, surface, tolerance, least, size: size as f32 };
+    let depth = Depth { field: &field, surface, bound, tolerance, least, size: size as f32 };
     let mut random = Random::new(run.seed(), 0);
 
     run.check(0.1, "looking for medial balls")?;

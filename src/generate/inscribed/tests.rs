@@ -5,6 +5,8 @@ use crate::generate::balls::bounds;
 use crate::generate::balls::dexels::Dexels;
 use crate::generate::balls::field::Field;
 use crate::generate::balls::random::Random;
+use crate::generate::{GenerateOptions, Method, inscribed_within};
+use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::shape::primitive::Primitive;
 use crate::shape::{ImportOptions, Shape};
@@ -24,7 +26,8 @@ fn with_balls(solid: &Solid, n: usize, f: impl FnOnce(Climb, Random)) {
     let field = Field::new(solid.grid(), solid.distance(&run).unwrap(), run.pool()).unwrap();
     let dexels = Dexels::new(solid, &bounds(solid).unwrap(), 2700, run.pool()).unwrap();
     let surface = solid.surface(&run).unwrap();
-    let depth = Depth { field: &field, surface, tolerance: 0.0, least: 1e-3, size: 1.0 };
+    let bound = None;
+    let depth = Depth { field: &field, surface, bound, tolerance: 0.0, least: 1e-3, size: 1.0 };
     let mut random = Random::new(7, 0);
     let places = dexels.points(n, &mut random).unwrap();
     let balls: Vec<Inside> = places.into_iter().filter_map(|p| depth.exact(p)).collect();
@@ -45,6 +48,28 @@ fn what_a_ball_covers_alone_is_what_is_lost_without_it() {
             assert!((own - lost).abs() < 1e-4 * climb.dexels.target, "{i}: {own} {lost}");
         }
     });
+}
+
+#[test]
+fn no_ball_leaves_a_further_bound() {
+    let solid = stone();
+    let ball = Sphere::new(solid.unit_moments().centroid, 0.3);
+    let bound = |p: &Vec3| {
+        let way = p - ball.center;
+        let apart = way.norm().max(1e-9);
+        (ball.radius - apart, ball.center + way * (ball.radius / apart))
+    };
+    let options = GenerateOptions { method: Method::Inscribed, spheres: 8, ..Default::default() };
+    let made = inscribed_within(&solid, &options, &bound, &Run::serial()).unwrap().spheres;
+    let made: Vec<Sphere> = made.iter().map(|s| solid.frame().sphere_to_unit(s)).collect();
+    let surface = solid.surface(&Run::serial()).unwrap();
+    for s in &made {
+        let depth = surface.nearest(&s.center).distance.min(bound(&s.center).0);
+        assert!(surface.contains(&s.center) && (s.radius - depth).abs() < 1e-9);
+    }
+    assert!(made[0].radius > 0.1 && made.len() > 1, "{made:?}");
+    let others = GenerateOptions::default();
+    assert!(inscribed_within(&solid, &others, &bound, &Run::serial()).is_err());
 }
 
 #[test]
