@@ -108,7 +108,7 @@ fn center(grid: &Grid, at: usize) -> Vec3 {
 
 /// The depth between the cells, about a middle.
 #[derive(Debug, Clone)]
-pub(super) struct Lookup<'a> {
+pub(super) struct Planes<'a> {
     cells: &'a [Cell],
     row: usize,
     layer: usize,
@@ -125,13 +125,13 @@ pub(super) struct Lookup<'a> {
     far: i16,
 }
 
-impl<'a> Lookup<'a> {
-    pub(super) fn new(grid: &Grid, field: &'a Field, middle: &Vec3) -> Lookup<'a> {
+impl<'a> Planes<'a> {
+    pub(super) fn new(grid: &Grid, field: &'a Field, middle: &Vec3) -> Planes<'a> {
         let first = grid.center(0, 0, 0) - middle;
         let edges = [0, 1, 2].map(|a| (grid.spacing[a] / field.unit) as f32);
         let [_, y, z] = edges.map(|e| e.round() as i16);
         let diagonal = 0.5 * grid.spacing.norm() / field.unit + 2.0;
-        Lookup {
+        Planes {
             cells: &field.cells,
             row: grid.dims[0],
             layer: grid.dims[0] * grid.dims[1],
@@ -162,8 +162,7 @@ impl<'a> Lookup<'a> {
         self.nearest(&[p.x as f32, p.y as f32, p.z as f32]) > 0
     }
 
-    /// Whether the depth at a place is more than a length: at a glance where it is so all about the
-    /// nearest cell's centre.
+    /// Whether the depth at a place is more than a length.
     #[inline]
     pub(super) fn deeper(&self, p: &[f32; 3], than: f32) -> bool {
         let least = than / (self.unit * ONE);
@@ -240,7 +239,7 @@ mod tests {
         let mut field = Field { cells: Vec::new(), unit: 0.8 / DEEPEST };
         field.cells = known.iter().map(|(depth, way)| field.cell(*depth, *way)).collect();
         let middle = Vec3::new(3.3, 2.4, 1.2);
-        let lookup = Lookup::new(&grid, &field, &middle);
+        let lookup = Planes::new(&grid, &field, &middle);
         let (mut ways, mut deep) = (0, 0);
         for _ in 0..3000 {
             let at = Vec3::new(unit() * 6.0, unit() * 5.0, unit() * 4.0);
@@ -264,7 +263,7 @@ mod tests {
         // The depth below a plane is told at a glance as by the planes themselves.
         let flat = |at: usize| field.cell(center(&grid, at).x - 3.35, Vec3::x());
         let flat = Field { cells: (0..210).map(flat).collect(), unit: field.unit };
-        let lookup = Lookup::new(&grid, &flat, &middle);
+        let lookup = Planes::new(&grid, &flat, &middle);
         for _ in 0..3000 {
             let x = 0.7 * unit() - 0.3;
             let p = [x as f32, 0.2 * unit() as f32, 0.1 * unit() as f32];

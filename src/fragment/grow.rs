@@ -30,10 +30,10 @@ pub fn grown_radii(
     let solid = parent.solid();
     let frame = solid.frame();
     let walls = walls(region, &[], frame)?;
-    let within = parent.within(false);
+    let within = parent.within(false, run)?;
     let parts = Parts {
         grid: solid.grid(),
-        field: within.field,
+        depths: within.depths,
         surface: solid.surface(run)?,
         union: None,
         walls: &walls,

@@ -1,6 +1,7 @@
 //! What is made once of a particle that may break, and read by every break.
 
 use super::field::{self, Field};
+use super::lookup::Depths;
 use super::room::{Ball, Parts, Room};
 use super::spread::{Random, spread};
 use super::union::Union;
@@ -24,7 +25,8 @@ pub struct Parent {
     spheres: Vec<Sphere>,
     /// Balls that no larger one within the surface holds, nearly.
     medial: Vec<Sphere>,
-    field: Field,
+    /// Missing where the distances alone serve.
+    field: Option<Field>,
     narrow: Option<Narrow>,
     step: Option<f64>,
     bytes: u64,
@@ -42,7 +44,7 @@ pub(super) struct Narrow {
 
 /// What the spheres of a fragment stay in.
 pub(super) struct Within<'a> {
-    pub field: &'a Field,
+    pub depths: Depths<'a>,
     pub union: Option<&'a Union>,
     pub medial: &'a [Sphere],
 }
@@ -77,7 +79,7 @@ impl Parent {
             let field = field::narrowed(solid.grid(), &field, &union, run)?;
             let mut own = self::medial(&solid, &field, surface, Some(&union), run)?;
             // The spheres themselves, as far as they are within the surface.
-            let room = whole(&solid, &field, surface, Some(&union))?;
+            let room = whole(&solid, Depths::Field(&field), surface, Some(&union))?;
             let kept = spheres.iter().map(|s| room.sphere(s.center));
             own.extend(kept.filter(|s| s.radius > 0.0));
             narrow = Some(Narrow { union, field, medial: own });
@@ -94,30 +96,35 @@ impl Parent {
         };
         run.count(|c| c.peak_bytes = c.peak_bytes.max(held + bytes));
         let hash = OnceLock::new();
+        let field = Some(field);
         Ok(Parent { solid, spheres, medial, field, narrow, step, bytes, held, hash })
     }
 
     /// Of a solid of a new shape and the spheres of its old clump (caller's frame), which are what
-    /// the search for new ones begins with; nothing keeps those within the old. It is made in a
-    /// fraction of the time of [`Parent::new`], which looks for balls all over the inside.
+    /// the search for new ones begins with; nothing keeps those within the old.
+    ///
+    /// Nothing is made of the solid but its distance field and surface tree, where it has none yet:
+    /// once [`Solid::distance`] and [`Solid::surface`] were called it is ready, and this takes some
+    /// hundred microseconds, where [`Parent::new`] makes fields and looks for balls all over the
+    /// inside.
     pub fn reshaped(solid: Arc<Solid>, spheres: &[Sphere], run: &Run) -> Result<Parent> {
         let (distance, surface) = (solid.distance(run)?, solid.surface(run)?);
         let held = 5 * solid.grid().len() as u64 + surface.bytes();
-        let own = field::BYTES * solid.grid().len() as u64;
+        let own = 64 * spheres.len() as u64;
         let room = solid.memory_limit().saturating_sub(held);
         fits(format_args!("a parent of fragments"), own, room)?;
         let frame = solid.frame();
         let spheres = collected("spheres", spheres.iter().map(|s| frame.sphere_to_unit(s)))?;
-        let field = field::of_solid(solid.grid(), distance, surface, run)?;
-        let inside = whole(&solid, &field, surface, None)?;
+        let inside = whole(&solid, Depths::Distance(distance), surface, None)?;
         let kept = spheres.iter().map(|s| inside.sphere(s.center));
         let medial = collected("candidates", kept.filter(|s| s.radius > 0.0))?;
-        let bytes = (32 * (spheres.len() + medial.len())) as u64 + own;
+        let bytes = (32 * (spheres.len() + medial.len())) as u64;
         let input = collected("spheres", spheres.iter().map(|s| frame.sphere_to_input(s)))?;
         let body = Body::of_solid(&solid, 1.0).ok().filter(|_| !input.is_empty());
         let step = body.and_then(|body| step_of(&input, &body));
         run.count(|c| c.peak_bytes = c.peak_bytes.max(held + bytes));
         let hash = OnceLock::new();
+        let field = None;
         Ok(Parent { solid, spheres, medial, field, narrow: None, step, bytes, held, hash })
     }
 
@@ -166,11 +173,16 @@ impl Parent {
     }
 
     /// What spheres stay in, the union of the parent's among it if wanted and there are any.
-    pub(super) fn within(&self, union: bool) -> Within<'_> {
-        match self.narrow.as_ref().filter(|_| union) {
-            Some(n) => Within { field: &n.field, union: Some(&n.union), medial: &n.medial },
-            None => Within { field: &self.field, union: None, medial: &self.medial },
+    pub(super) fn within(&self, union: bool, run: &Run) -> Result<Within<'_>> {
+        if let Some(n) = self.narrow.as_ref().filter(|_| union) {
+            let depths = Depths::Field(&n.field);
+            return Ok(Within { depths, union: Some(&n.union), medial: &n.medial });
         }
+        let depths = match &self.field {
+            Some(field) => Depths::Field(field),
+            None => Depths::Distance(self.solid.distance(run)?),
+        };
+        Ok(Within { depths, union: None, medial: &self.medial })
     }
 }
 
@@ -183,14 +195,14 @@ pub(super) fn step_of(spheres: &[Sphere], body: &Body) -> Option<f64> {
 /// The room of the whole solid.
 fn whole<'a>(
     solid: &'a Solid,
-    field: &'a Field,
+    depths: Depths<'a>,
     surface: &'a Surface,
     union: Option<&'a Union>,
 ) -> Result<Room<'a>> {
     let grid = solid.grid();
     let edges = Vec3::from(grid.dims.map(|n| n as f64)).component_mul(&grid.spacing);
     let (lo, hi) = (grid.origin, grid.origin + edges);
-    let parts = Parts { grid, field, surface, union, walls: &[], less: 0.0, lo, hi };
+    let parts = Parts { grid, depths, surface, union, walls: &[], less: 0.0, lo, hi };
     Room::new(parts, solid.unit_moments().volume)
 }
 
@@ -202,7 +214,7 @@ fn medial(
     union: Option<&Union>,
     run: &Run,
 ) -> Result<Vec<Sphere>> {
-    let room = whole(solid, field, surface, union)?;
+    let room = whole(solid, Depths::Field(field), surface, union)?;
     let grid = solid.grid();
     let half = [0, 1, 2].map(|a| (0.5 * grid.dims[a] as f64 * grid.spacing[a]) as f32);
     let mut random = Random::new(run.seed());

@@ -122,12 +122,12 @@ pub fn reclump(
     let solid = parent.solid();
     let frame = solid.frame();
     let walls = walls(region, &options.walls, frame)?;
-    let Within { field, union, medial } = parent.within(options.union);
+    let Within { depths, union, medial } = parent.within(options.union, run)?;
     let rounding = 8.0 * frame.noise() + ROUNDING;
     let less = 0.5 * options.gap / frame.scale + rounding;
     let (grid, surface) = (solid.grid(), solid.surface(run)?);
     let (lo, hi) = (region.lo, region.hi);
-    let parts = Parts { grid, field, surface, union, walls: &walls, less, lo, hi };
+    let parts = Parts { grid, depths, surface, union, walls: &walls, less, lo, hi };
     let volume = region.moments.volume.max(0.0);
     let room = Room::new(parts, volume)?;
     let size = f64::from(room.size);

@@ -176,10 +176,12 @@ fn the_depth_is_that_of_the_clipped_body() {
     let region = region(&whole, &[plane([1.0, 0.0, 0.0], [cut, 0.0, 0.0])]);
     let walls = walls(&region, &[], whole.frame()).unwrap();
     let run = Run::serial();
-    let Within { field, union, .. } = parent.within(false);
+    let Within { depths, union, .. } = parent.within(false, &run).unwrap();
     let (lo, hi) = (region.lo, region.hi);
-    let (grid, surface_of) = (whole.grid(), whole.surface(&run).unwrap());
-    let parts = Parts { grid, field, surface: surface_of, union, walls: &walls, less: 0.0, lo, hi };
+    let grid = whole.grid();
+    let surface_of = whole.surface(&run).unwrap();
+    let parts =
+        Parts { grid, depths, surface: surface_of, union, walls: &walls, less: 0.0, lo, hi };
     let room = Room::new(parts, region.moments.volume).unwrap();
     let mut random = Random::new(1);
     let mut inside = 0;

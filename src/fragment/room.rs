@@ -3,7 +3,7 @@
 //! that no field is made for a fragment; what is nearly so, fast and in single precision, is read
 //! from the parent's, and every sphere handed out is measured exactly.
 
-use super::field::{Field, Lookup};
+use super::lookup::{Depths, Lookup};
 use super::union::Union;
 use crate::error::{Result, collected};
 use crate::math::{Sphere, Vec3};
@@ -70,7 +70,7 @@ pub(super) struct Parts<'a> {
     pub grid: &'a Grid,
     /// The depth in what spheres must stay in: the solid, or what it has in common with the
     /// union.
-    pub field: &'a Field,
+    pub depths: Depths<'a>,
     pub surface: &'a Surface,
     pub union: Option<&'a Union>,
     /// Half-spaces of the fragment and further ones.
@@ -115,7 +115,7 @@ impl<'a> Room<'a> {
         let size = volume.max(0.0).cbrt() as f32;
         let exact = edges.max() < FEW_CELLS * cell;
         Ok(Room {
-            lookup: Lookup::new(parts.grid, parts.field, &middle),
+            lookup: Lookup::new(parts.grid, parts.depths, &middle),
             slack: if exact { 1e-3 * size } else { TOLERANCE * cell as f32 },
             walls,
             planes,

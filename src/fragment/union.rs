@@ -99,7 +99,7 @@ impl Union {
     }
 
     /// The same, and the nearest exposed point; outside the nearest of a sphere.
-    pub(super) fn nearest(&self, p: &Vec3) -> (f64, Vec3) {
+    pub fn nearest(&self, p: &Vec3) -> (f64, Vec3) {
         let (mut most, mut deepest) = (f64::MIN, 0);
         for (i, s) in self.spheres.iter().enumerate() {
             let depth = s.radius - (p - s.center).norm();
