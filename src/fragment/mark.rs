@@ -5,23 +5,61 @@
 //! come nearer than a cell, count as not held: what needs more looks at a whole ball, which is of
 //! the piece when it meets one cell that is set.
 
+use super::mark_bits;
 use crate::error::{Result, filled, push};
 use crate::math::Vec3;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// Most cells: 32 KiB of bits.
 const CELLS: f64 = 262_144.0;
+/// Most borders between cells that are set and others, along x: with two bits for each, which are
+/// seldom needed, 2.5 KiB.
+const BORDERS: u32 = 10_000;
+/// A mark of fewer cells than this has as many borders as it has.
+const COARSEST: f64 = 8192.0;
+/// Bytes that making one takes: what is known of the cells, and those still to be visited.
+pub(super) const MAKING: u64 = 2 * CELLS as u64;
 /// Cells along the longest edge, at most.
 const LONGEST: f64 = 512.0;
 
 /// The mark of one component.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
     lo: Vec3,
     step: f64,
     dims: [usize; 3],
-    #[serde(with = "super::mark_bits")]
     bits: Vec<u64>,
+}
+
+/// The same as it is handed on.
+#[derive(Serialize, Deserialize)]
+struct Packed {
+    lo: Vec3,
+    step: f64,
+    dims: [u32; 3],
+    bytes: Vec<u8>,
+}
+
+impl Serialize for Mark {
+    fn serialize<S: Serializer>(&self, to: S) -> std::result::Result<S::Ok, S::Error> {
+        let bytes = mark_bits::pack(&self.bits, self.dims).map_err(serde::ser::Error::custom)?;
+        let dims = self.dims.map(|n| n as u32);
+        Packed { lo: self.lo, step: self.step, dims, bytes }.serialize(to)
+    }
+}
+
+impl<'de> Deserialize<'de> for Mark {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Mark, D::Error> {
+        let Packed { lo, step, dims, bytes } = Packed::deserialize(from)?;
+        let cells: u64 = dims.iter().map(|&n| u64::from(n)).fold(1, u64::saturating_mul);
+        if cells == 0 || cells > CELLS as u64 || dims.iter().any(|&n| f64::from(n) > LONGEST) {
+            return Err(D::Error::custom(format!("a mark of {cells} cells is none")));
+        }
+        let dims = dims.map(|n| n as usize);
+        let bits = mark_bits::unpack(&bytes, dims).map_err(D::Error::custom)?;
+        Ok(Mark { lo, step, dims, bits })
+    }
 }
 
 /// What is known of the cells while a mark is made.
@@ -35,10 +73,18 @@ impl Mark {
     pub(super) fn of_triangles(
         lo: &Vec3,
         hi: &Vec3,
+        own: impl Iterator<Item = [Vec3; 3]> + Clone,
+        others: impl Iterator<Item = [Vec3; 3]> + Clone,
+    ) -> Result<Mark> {
+        Mark::plain(lo, hi, |mark| mark.with_triangles(own.clone(), others.clone()))
+    }
+
+    fn with_triangles(
+        mut self,
         own: impl Iterator<Item = [Vec3; 3]>,
         others: impl Iterator<Item = [Vec3; 3]>,
     ) -> Result<Mark> {
-        let mut mark = Mark::over(lo, hi)?;
+        let mark = &mut self;
         let mut cells = filled("cells of a mark", mark.len(), FREE)?;
         for t in others {
             mark.paint(&t, &mut cells, OTHER);
@@ -73,16 +119,20 @@ impl Mark {
         for (i, _) in cells.iter().enumerate().filter(|(_, c)| **c == OWN) {
             mark.set(i);
         }
-        Ok(mark)
+        Ok(self)
     }
 
     /// Of the component with the box `lo`, `hi`, where all others lie within the given boxes.
     pub(super) fn of_boxes(
         lo: &Vec3,
         hi: &Vec3,
-        others: impl Iterator<Item = [Vec3; 2]>,
+        others: impl Iterator<Item = [Vec3; 2]> + Clone,
     ) -> Result<Mark> {
-        let mut mark = Mark::over(lo, hi)?;
+        Mark::plain(lo, hi, |mark| mark.with_boxes(others.clone()))
+    }
+
+    fn with_boxes(mut self, others: impl Iterator<Item = [Vec3; 2]>) -> Result<Mark> {
+        let mark = &mut self;
         let mut cells = filled("cells of a mark", mark.len(), FREE)?;
         for [lo, hi] in others {
             mark.each(&lo, &hi, |i, _| {
@@ -94,16 +144,39 @@ impl Mark {
         for (i, _) in cells.iter().enumerate().filter(|(_, c)| **c == FREE) {
             mark.set(i);
         }
-        Ok(mark)
+        Ok(self)
+    }
+
+    /// A mark of fewer cells where there would be too many borders for what is handed on.
+    fn plain(lo: &Vec3, hi: &Vec3, make: impl Fn(Mark) -> Result<Mark>) -> Result<Mark> {
+        let mut most = CELLS;
+        loop {
+            let mark = make(Mark::over(lo, hi, most)?)?;
+            if mark.borders() <= BORDERS || most < COARSEST {
+                return Ok(mark);
+            }
+            most /= 4.0;
+        }
+    }
+
+    /// How often a cell is set and the next is not, or the other way round.
+    fn borders(&self) -> u32 {
+        let mut last = 0;
+        let of = |word: &u64| {
+            let before = word << 1 | last;
+            last = word >> 63;
+            (word ^ before).count_ones()
+        };
+        self.bits.iter().map(of).sum()
     }
 
     /// No cell set.
-    fn over(lo: &Vec3, hi: &Vec3) -> Result<Mark> {
+    fn over(lo: &Vec3, hi: &Vec3, most: f64) -> Result<Mark> {
         let edges = (hi - lo).map(|e| e.max(f64::MIN_POSITIVE));
         // Grown until it fits: flat boxes have few cells across.
         let mut step = (edges.max() / LONGEST).max(f64::MIN_POSITIVE);
         let count = |step: f64| edges.map(|e| (e / step).ceil().max(1.0));
-        while count(step).product() > CELLS {
+        while count(step).product() > most {
             step *= 1.1;
         }
         let dims = count(step).map(|n| n as usize);

@@ -110,7 +110,7 @@ impl Parts {
         view: View<'a>,
         body: usize,
         others: bool,
-    ) -> impl Iterator<Item = [Vec3; 3]> + 'a {
+    ) -> impl Iterator<Item = [Vec3; 3]> + Clone + 'a {
         let own = view.faces.iter().filter(move |f| (self.body(f) as usize == body) != others);
         own.map(move |f| view.corners(f))
     }

@@ -36,7 +36,7 @@ struct Record {
 
 /// The bytes of a fragment of a parent: its half-spaces, moments, box and spheres, and the hash of
 /// the parent in the parent's place. About 250 bytes, 32 for each half-space and each sphere; a
-/// mark, which tells one of several components of a cell, adds up to 32 KiB, mostly about 1 to 4.
+/// mark, which tells one of several components of a cell, adds up to 2.5 KiB, mostly about 1.
 pub fn fragment_to_bytes(parent: &Parent, region: &Region, spheres: &[Sphere]) -> Result<Vec<u8>> {
     let four = |v: &Vec3, w: f64| [v.x, v.y, v.z, w];
     let record = Record {

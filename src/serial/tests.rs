@@ -157,7 +157,7 @@ fn fragments_come_back_and_are_small() {
     assert_eq!(many.len(), 20);
     let (of_ring, ends) = ring();
     assert!(ends.len() == 2 && ends.iter().all(|(r, _)| r.mark.is_some()));
-    for (parent, most, found) in [(&of_stone, 4096, many), (&of_ring, 16 << 10, ends)] {
+    for (parent, most, found) in [(&of_stone, 4096, many), (&of_ring, 4096, ends)] {
         for (region, spheres) in found {
             let bytes = fragment_to_bytes(parent, &region, &spheres).unwrap();
             assert!(bytes.len() <= most, "{} bytes, {} spheres", bytes.len(), spheres.len());
