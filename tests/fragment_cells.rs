@@ -7,14 +7,15 @@ mod common;
 use common::fragments::{lack, made, pieces, plane};
 use common::{Arrays, cuboid, join, solid_of, solid_of_mesh, sphere};
 use morula::fragment::{
-    Cut, CutOptions, Held, ShatterOptions, cut, cut_region, label_solids, shatter_labels,
+    Cut, CutOptions, Held, Region, ShatterOptions, cut, cut_region, label_solids, shape,
+    shatter_labels,
 };
 use morula::generate::HalfSpace;
 use morula::mass::Body;
 use morula::math::{Sphere, Vec3};
 use morula::shape::{ImportOptions, Layout, Shape};
 use morula::solid::SolidOptions;
-use morula::{Run, Solid};
+use morula::{Error, Run, Solid};
 use std::f64::consts::PI;
 
 /// Cells of 1/8 for which `f` holds of their middles, in a cube of `n` cells.
@@ -140,6 +141,55 @@ fn crossing_balls_add_up() {
     let cap = PI * 0.15 * 0.15 * (3.0 - 0.15) / 3.0;
     for r in f.regions.iter().filter(|r| r.cell() == 1) {
         assert!((r.moments(solid.frame()).volume / cap - 1.0).abs() < 0.05);
+    }
+}
+
+/// Volume within the surface of a region, and the edge of the grid's cells.
+fn surface_of(solid: &Solid, region: &Region) -> (f64, f64) {
+    let own = shape(solid, region, &Run::serial()).unwrap();
+    let morula::shape::Body::Mesh(mesh) = &*own.body else { panic!("no mesh") };
+    let corners = |f: &[u32; 3]| f.map(|v| mesh.vertices[v as usize]);
+    let six = |f: &[u32; 3]| {
+        let [a, b, c] = corners(f);
+        a.cross(&b).dot(&c)
+    };
+    // Closed: the areas of all faces add up to nothing.
+    let area = mesh.faces.iter().map(corners).map(|[a, b, c]| (b - a).cross(&(c - a)));
+    assert!(area.sum::<Vec3>().norm() < 1e-12);
+    let volume = mesh.faces.iter().map(six).sum::<f64>() / 6.0 * own.frame.scale.powi(3);
+    (volume, solid.grid().spacing.max() * solid.frame().scale)
+}
+
+#[test]
+fn cells_stand_in_for_surfaces_that_cannot_be_cut() {
+    let (v, mut f) = cuboid([0.0; 3], [1.0, 1.0, 1.0]);
+    f.drain(2..4);
+    let open = solid_of_mesh(&(v, f), 24);
+    let balls = solid_of_mesh(&crossing(), 48);
+    let slanted = vec![plane([1.0, 0.2, 0.3], 0.6), plane([0.1, 1.0, 0.0], 0.3)];
+    // Both caps are of one cell: each has a surface of its own.
+    let caps = vec![plane([0.0, 0.0, 1.0], 0.85)];
+    for (solid, by, count) in [(&open, &slanted, 4), (&balls, &slanted, 4), (&balls, &caps, 3)] {
+        let f = made(solid, &Cut::Planes(by.clone()));
+        assert_eq!(f.regions.len(), count);
+        let mut sum = 0.0;
+        for r in &f.regions {
+            let (volume, cell) = surface_of(solid, r);
+            let told = r.moments(solid.frame()).volume;
+            // To half a cell of the whole surface, at most.
+            let most = 3.0 * told.powf(2.0 / 3.0) * cell;
+            assert!((volume - told).abs() < most, "{volume} {told} {most}");
+            sum += volume;
+        }
+        let whole = solid.moments().volume;
+        assert!((sum / whole - 1.0).abs() < 0.03, "{sum} {whole}");
+    }
+    // Thinner than cells: that there is none is said.
+    let thin = vec![plane([0.0, 0.0, 1.0], 1.0), plane([0.0, 0.0, -1.0], -0.9999)];
+    for r in &made(&balls, &Cut::Within(thin)).regions {
+        if let Err(e) = shape(&balls, r, &Run::serial()) {
+            assert!(matches!(&e, Error::Empty(t) if t.contains("thinner than cells")), "{e}");
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use crate::error::{Error, Result, collected, filled, fits, push, reserve};
 use crate::generate::Plane;
 use crate::math::Vec3;
 use crate::shape::Voxels;
+use crate::solid::Solid;
 use crate::solid::moments::Sums;
 
 /// As near to a plane as this in the unit frame counts as on it.
@@ -72,6 +73,12 @@ impl<'a> Blocks<'a> {
     pub fn of(v: &'a Voxels, limit: u64) -> Blocks<'a> {
         let (spacing, dims, cells) = (v.spacing, v.dims, v.cells.as_slice());
         Blocks { origin: Vec3::zeros(), spacing, dims, cells, limit }
+    }
+
+    /// Of the cells inside a solid.
+    pub fn of_grid(solid: &'a Solid) -> Blocks<'a> {
+        let (grid, cells, limit) = (solid.grid(), solid.inside(), solid.memory_limit());
+        Blocks { origin: grid.origin, spacing: grid.spacing, dims: grid.dims, cells, limit }
     }
 }
 

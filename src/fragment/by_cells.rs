@@ -37,10 +37,7 @@ pub(super) fn of_blocks(
                 run.check(0.0, "cutting columns")?;
                 columns.push(Columns::within(solid.body(), lattice, limit, 0, run)?);
             }
-            let (grid, cells) = (solid.grid(), solid.inside());
-            let (origin, spacing, dims) = (grid.origin, grid.spacing, grid.dims);
-            let bounds = *Piece::whole(mesh).bounds();
-            (Blocks { origin, spacing, dims, cells, limit }, bounds, Some(columns))
+            (Blocks::of_grid(solid), *Piece::whole(mesh).bounds(), Some(columns))
         }
     };
     let members = region.map(|r| blocks.members(r)).transpose()?.flatten();
@@ -50,7 +47,7 @@ pub(super) fn of_blocks(
     match Cells::of(by, solid, region, &bounds, notes, run)? {
         Cells::Arranged(planes) => {
             if let Some(base) = Piece::cuboid(&body[0], &body[1]).within(outer)? {
-                let (pieces, cuts) = arrange(base, &planes, run)?;
+                let (pieces, cuts) = arrange(base, &planes, limit, run)?;
                 missed(&cuts, notes);
                 for piece in pieces {
                     push("cells of planes", &mut lists, Some(piece.planes))?;

@@ -4,8 +4,9 @@ use super::Region;
 use super::blocks::Blocks;
 use super::by_cells::of_blocks;
 use super::cells::{Cells, Cut};
+use super::mark;
 use super::piece::{Kin, Piece, arrange};
-use crate::error::{Error, Result, count, figure, push};
+use crate::error::{Error, Result, count, figure, fits, push};
 use crate::math::Moments;
 use crate::run::Run;
 use crate::shape::{Body, ImportOptions, Mesh, Shape};
@@ -132,6 +133,10 @@ fn of_mesh(
     notes: &mut Vec<String>,
     run: &Run,
 ) -> Result<Vec<Region>> {
+    // A piece takes no more than the whole, and a mark's cells.
+    let limit = solid.memory_limit();
+    let most = Piece::cutting(mesh.vertices.len(), mesh.faces.len()) + mark::MAKING;
+    fits(format_args!("a cut of a mesh of {}", faces_of(mesh)), most, limit)?;
     let (base, kin) = match region {
         Some(region) => Piece::of_region(mesh, region)?,
         None => (Piece::whole(mesh), Kin(None)),
@@ -150,7 +155,7 @@ fn of_mesh(
     };
     match cells {
         Cells::Arranged(planes) => {
-            let (pieces, cuts) = arrange(base.lend()?, &planes, run)?;
+            let (pieces, cuts) = arrange(base.lend()?, &planes, limit, run)?;
             run.check(0.5, "cutting by planes")?;
             let mut slots: Vec<(usize, Option<Piece>, Result<Vec<Region>>)> = Vec::new();
             for (i, piece) in pieces.into_iter().enumerate() {
@@ -169,10 +174,11 @@ fn of_mesh(
             missed(&cuts, notes);
         }
         Cells::Convex(cells) => {
-            const TOGETHER: usize = 64;
-            for first in (0..cells.len()).step_by(TOGETHER) {
+            // So many that they fit, whatever the number of threads.
+            let together = (limit / most.max(1)).clamp(1, 64) as usize;
+            for first in (0..cells.len()).step_by(together) {
                 run.check(0.1 + 0.9 * first as f64 / cells.len() as f64, "cutting cells")?;
-                let n = TOGETHER.min(cells.len() - first);
+                let n = together.min(cells.len() - first);
                 let made = run.pool().map(n, |k| -> Result<Option<Vec<Region>>> {
                     let i = first + k;
                     let Some(planes) = cells.get(i).and_then(Option::as_ref) else {
@@ -192,6 +198,10 @@ fn of_mesh(
     Ok(found)
 }
 
+fn faces_of(mesh: &Mesh) -> String {
+    count(mesh.faces.len() as u64, "face")
+}
+
 /// Says which planes cut nothing.
 pub(super) fn missed(cuts: &[bool], notes: &mut Vec<String>) {
     let none: Vec<String> =
@@ -209,22 +219,35 @@ pub(super) fn missed(cuts: &[bool], notes: &mut Vec<String>) {
 
 /// The surface of a region as a shape of its own, in the caller's frame.
 ///
-/// Of voxels it is a mesh: the faces of cells, with what planes cut of them cut. A mesh that is open or
-/// crosses itself has no surface that could be cut: its regions are known by their columns alone.
+/// Of voxels it is a mesh: the faces of cells, with what planes cut of them cut. A mesh that is open
+/// or crosses itself has no surface that could be cut: its regions are known by their columns. For
+/// these the cells of the solid's grid stand in, as voxels do, so that the shape is right to a cell's
+/// edge; [`Region::moments`] is more exact.
 ///
-/// Errors: `Unsupported` for these; as those of [`Shape::from_mesh`]. Several bodies that touch are
-/// kept as one.
+/// Errors: `Empty` where no cell is in a region of these, thinner than cells; as those of
+/// [`Shape::from_mesh`]. Several bodies that touch are kept as one.
 pub fn shape(solid: &Solid, region: &Region, run: &Run) -> Result<Shape> {
     let surface = match (exact_mesh(solid, run)?, solid.body()) {
         (Some(mesh), _) => {
+            let most = Piece::cutting(mesh.vertices.len(), mesh.faces.len());
+            fits(
+                format_args!("a cut of a mesh of {}", faces_of(mesh)),
+                most,
+                solid.memory_limit(),
+            )?;
             let (piece, kin) = Piece::of_region(mesh, region)?;
             piece.own(&kin)?
         }
         (None, Body::Voxels(v)) => Blocks::of(v, solid.memory_limit()).skin(region)?,
         (None, Body::Mesh(_)) => {
-            return Err(Error::Unsupported(
-                "a mesh that is open or crosses itself has no surface that could be cut".into(),
-            ));
+            solid.find_inside(run)?;
+            let skin = Blocks::of_grid(solid).skin(region)?;
+            if skin.faces.is_empty() {
+                return Err(Error::Empty(
+                    "no cell of the grid is in the fragment: it is thinner than cells".into(),
+                ));
+            }
+            skin
         }
     };
     let frame = solid.frame();

@@ -5,7 +5,7 @@ use super::clip::{CAP, Side, Surface, View, cut};
 use super::ears::triangulate;
 use super::parts::{Part, Parts};
 use super::{Mark, Region};
-use crate::error::{Error, Result, collected, filled, push, reserve};
+use crate::error::{Error, Result, collected, count, filled, fits, push, reserve};
 use crate::generate::Plane;
 use crate::math::{Vec3, solid_angle};
 use crate::run::Run;
@@ -79,6 +79,20 @@ impl<'a> Piece<'a> {
             Held::Parent(view) => *view,
             Held::Own(surface) => surface.view(),
         }
+    }
+
+    /// Bytes that cutting a surface of so many vertices and faces takes: what is left of it on one
+    /// side, twice while one replaces the other, the heights and new numbers of vertices, and what
+    /// finding its bodies takes.
+    pub fn cutting(vertices: usize, faces: usize) -> u64 {
+        let surface = 24 * vertices as u64 + 16 * faces as u64;
+        2 * surface + 20 * vertices as u64
+    }
+
+    /// The same of this one.
+    fn own_cutting(&self) -> u64 {
+        let view = self.view();
+        Piece::cutting(view.vertices.len(), view.faces.len())
     }
 
     /// Corners of the box about it.
@@ -317,9 +331,12 @@ impl Kin {
 const MOST_CELLS: usize = 1 << 14;
 
 /// All cells of an arrangement of planes that meet a piece, and which planes cut it.
+///
+/// `limit`: most bytes for all of them together.
 pub(super) fn arrange<'a>(
     piece: Piece<'a>,
     planes: &[Plane],
+    limit: u64,
     run: &Run,
 ) -> Result<(Vec<Piece<'a>>, Vec<bool>)> {
     let mut pieces = vec![piece];
@@ -342,6 +359,8 @@ pub(super) fn arrange<'a>(
             )));
         }
         pieces = next;
+        let held = pieces.iter().map(Piece::own_cutting).sum();
+        fits(format_args!("{} of a cut mesh", count(pieces.len() as u64, "piece")), held, limit)?;
         cuts.push(met);
     }
     Ok((pieces, cuts))
