@@ -40,7 +40,7 @@ impl Random {
         m.centroid + self.direction() * (reach * self.unit() * m.volume.cbrt())
     }
 
-    fn plane(&mut self, solid: &Solid) -> HalfSpace {
+    pub fn plane(&mut self, solid: &Solid) -> HalfSpace {
         let normal = self.direction();
         HalfSpace { normal, offset: normal.dot(&self.place(solid, 0.4)) }
     }

@@ -3,10 +3,10 @@
 
 use super::breaks::{Random, mean, median, parent, particles, pieces};
 use morula::fragment::{
-    CutOptions, Held, Parent, Reclump, ReclumpOptions, Region, ShatterOptions, reclump, shape,
-    shatter,
+    CutOptions, Held, Parent, Reclump, ReclumpOptions, Region, ShatterOptions, Union, reclump,
+    shape, shatter,
 };
-use morula::generate::{GenerateOptions, Method, generate};
+use morula::generate::{GenerateOptions, Method, generate, inscribed_within};
 use morula::mass::{Body, union_moments};
 use morula::math::Vec3;
 use morula::solid::SolidOptions;
@@ -14,10 +14,10 @@ use morula::{Run, Solid, Sphere};
 use std::time::Instant;
 
 /// How often each fragment is made.
-const TIMES: usize = 5;
+pub const TIMES: usize = 5;
 
 /// CPU seconds of this thread so far, in steps of some milliseconds; without Linux's figure 0.
-fn cpu() -> f64 {
+pub fn cpu() -> f64 {
     std::fs::read_to_string("/proc/thread-self/schedstat")
         .ok()
         .and_then(|s| s.split(' ').next()?.parse::<f64>().ok())
@@ -47,11 +47,27 @@ pub fn timed(
     found.map(|made| (made, [least, cpu]))
 }
 
-fn volume(spheres: &[Sphere]) -> f64 {
+pub fn volume(spheres: &[Sphere]) -> f64 {
     union_moments(spheres, &Run::serial()).map_or(0.0, |m| m.volume)
 }
 
-/// Milliseconds, CPU milliseconds, coverage and that of the full generator.
+/// Spheres by the full generator within the clipped body, and within the union of the parent's.
+fn full_generator(parent: &Parent, clipped: &Solid, n: usize, union: bool) -> Vec<Sphere> {
+    let (method, run) = (Method::Inscribed, Run::serial());
+    let options = GenerateOptions { method, spheres: n, ..GenerateOptions::default() };
+    if !union {
+        return generate(clipped, &options, &run).unwrap().spheres;
+    }
+    let (whole, own) = (parent.solid().frame(), clipped.frame());
+    let around = parent.unit_spheres().iter();
+    let around = around.map(|s| own.sphere_to_unit(&whole.sphere_to_input(s)));
+    let around = Union::new(&around.collect::<Vec<Sphere>>()).unwrap();
+    let made = inscribed_within(clipped, &options, &|p| around.nearest(p), &run);
+    made.map_or_else(|_| Vec::new(), |clump| clump.spheres)
+}
+
+/// Milliseconds, CPU milliseconds, coverage and that of the full generator under the same
+/// constraints.
 type Row = [Vec<f64>; 4];
 
 /// Latency and coverage; `full`: beside the full generator on the clipped body, which takes most
@@ -67,12 +83,10 @@ pub fn latency(cuts: usize, full: bool) {
             Solid::new(&body, &SolidOptions::default(), &run).unwrap()
         });
         for (i, n) in [10, 50].into_iter().enumerate() {
-            let theirs = clipped.as_ref().map_or(0.0, |clipped| {
-                let method = Method::Inscribed;
-                let options = GenerateOptions { method, spheres: n, ..GenerateOptions::default() };
-                volume(&generate(clipped, &options, &run).unwrap().spheres) / whole
-            });
             for union in [false, true] {
+                let theirs = clipped.as_ref().map_or(0.0, |clipped| {
+                    volume(&full_generator(parent, clipped, n, union)) / whole
+                });
                 let Some((made, [time, cpu])) = timed(parent, region, n, union) else { continue };
                 let row = [time * 1e3, cpu * 1e3, volume(&made.spheres) / whole, theirs];
                 all[2 * i + usize::from(union)].iter_mut().zip(row).for_each(|(to, v)| to.push(v));
@@ -102,7 +116,7 @@ pub fn latency(cuts: usize, full: bool) {
     }
 }
 
-fn held(solid: &Solid) -> Held {
+pub fn held(solid: &Solid) -> Held {
     let body = Body::of_solid(solid, 1.0).unwrap();
     Held {
         mass: body.mass,
