@@ -27,7 +27,10 @@ impl Broad {
     pub fn update(&mut self, state: &State) {
         let moved = &state.moved;
         let half = 0.5 * self.skin;
-        if self.at.len() == moved.len() && self.at.iter().zip(moved).all(|(a, m)| m - a <= half) {
+        if self.at.len() == moved.len()
+            && self.skin > 0.0
+            && self.at.iter().zip(moved).all(|(a, m)| m - a <= half)
+        {
             return;
         }
         self.renew(state);
@@ -38,6 +41,17 @@ impl Broad {
         self.at.clear();
         self.skin = 0.0;
         self.pairs.iter_mut().for_each(Pair::forget);
+    }
+
+    /// Body `i` is gone; the later ones have moved up by one.
+    pub fn remove(&mut self, i: u32) {
+        self.at.clear();
+        self.pairs.retain_mut(|p| {
+            let keep = p.a != i && p.b != i;
+            p.a -= u32::from(p.a > i);
+            p.b -= u32::from(p.b > i);
+            keep
+        });
     }
 
     pub fn bytes(&self) -> u64 {

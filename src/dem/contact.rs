@@ -89,8 +89,6 @@ impl Laws {
 
 /// How two bodies move against each other, in the frame of the first: shared by all their contacts.
 pub(crate) struct Motion {
-    /// The second centre of mass from the first.
-    pub shift: Vec3,
     /// The second's axes in the first's.
     pub turn: Matrix3<f64>,
     /// Velocities, at the end and in the middle of the step: of the second centre from the first, and both spins.

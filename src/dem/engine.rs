@@ -3,10 +3,14 @@
 use super::broad::Broad;
 use super::contact::{Calls, Law, Laws, Visitor, choose};
 use super::effects::cohesion::jkr_range;
+use super::effects::drag::{self, Drag};
+use super::effects::insertion::Insertion;
 use super::effects::{Coefficients, gravity};
 use super::energy;
 use super::integrate;
-use super::narrow::{ContactRecord, Context, Kernel, Of, Pair, Scratch, Sums};
+use super::kernel::{Context, Kernel, Of, Scratch, Sums};
+use super::narrow::{ContactRecord, Pair};
+use super::snapshot::{self, Bodies, Snapshot};
 use super::state::{Placed, State};
 use super::walls::{Wall, WallSetup};
 use crate::error::{Error, Result, figure};
@@ -36,6 +40,10 @@ pub struct Setup {
     pub walls: Vec<WallSetup>,
     /// Acceleration of gravity.
     pub gravity: Option<Vec3>,
+    /// A fluid that slows bodies down.
+    pub drag: Option<Drag>,
+    /// Bodies that come while it runs.
+    pub insertion: Vec<Insertion>,
     /// Whether bodies turn exactly between the forces (else by splitting, with an error of dt²).
     pub exact_rotation: bool,
     /// Whether a run that has more kinetic energy than was put in is stopped.
@@ -52,6 +60,8 @@ impl Setup {
             coefficients: vec![Coefficients::default()],
             walls: Vec::new(),
             gravity: None,
+            drag: None,
+            insertion: Vec::new(),
             exact_rotation: false,
             guard: true,
         }
@@ -73,6 +83,23 @@ pub struct Work {
     pub calls: Calls,
     /// Bodies that gravity pulled, summed over the steps.
     pub gravity: u64,
+    /// Bodies that a fluid slowed down, summed over the steps.
+    pub drag: u64,
+    /// Batches of bodies that were looked for.
+    pub insertion: u64,
+    /// Places of walls that were reckoned.
+    pub motion: u64,
+}
+
+/// What one effect did and holds: nothing, where it is not named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct EffectReport {
+    /// Its name.
+    pub name: &'static str,
+    /// How often it was called.
+    pub calls: u64,
+    /// Bytes that it holds.
+    pub bytes: u64,
 }
 
 /// A running simulation.
@@ -89,6 +116,8 @@ pub struct Engine {
     step: u64,
     /// Energy that was put in: kinetic and potential of the bodies, springs, work of walls.
     put_in: f64,
+    /// Bodies of each insertion so far.
+    inserted: Vec<u64>,
     started: bool,
 }
 
@@ -134,12 +163,33 @@ impl Engine {
         if let Some(k) = state.material.iter().copied().chain(of_walls).find(|k| *k as usize >= m) {
             return Err(Error::IndexOutOfRange(format!("there is no material {k} of {m}")));
         }
+        if let Some(d) = &setup.drag {
+            d.check()?;
+        }
+        for i in &setup.insertion {
+            i.check(state.templates.len(), m)?;
+        }
+        for (i, w) in walls.iter().enumerate() {
+            for (k, t) in state.templates.iter().enumerate() {
+                let radius = t.spheres().iter().map(|s| s.radius).fold(0.0, f64::max);
+                if let Some(r) = w.narrowest()
+                    && radius >= r
+                {
+                    let (r, radius) = (figure(r), figure(radius));
+                    return Err(Error::InvalidArgument(format!(
+                        "a sphere of template {k} has the radius {radius}, wall {i} {r}"
+                    )));
+                }
+            }
+        }
         let kernel = match &setup.laws {
             Some(laws) => Some(choose(laws, Make)?),
             None => None,
         };
         let (force, torque) = (vec![Vec3::zeros(); walls.len()], vec![Vec3::zeros(); walls.len()]);
+        let inserted = vec![0; setup.insertion.len()];
         Ok(Engine {
+            inserted,
             setup,
             state,
             walls,
@@ -231,12 +281,141 @@ impl Engine {
         if self.started {
             return Ok(());
         }
+        self.insert()?;
         self.started = true;
         self.forces(run);
         let [a, b] = energy::kinetic(&self.state);
         let stored: f64 = self.contacts().iter().flatten().map(|c| c.energy.max(0.0)).sum();
         self.put_in += a + b + stored + self.potential();
         Ok(())
+    }
+
+    /// The bodies that are due.
+    fn insert(&mut self) -> Result<()> {
+        for k in 0..self.setup.insertion.len() {
+            let (i, before) = (&self.setup.insertion[k], self.inserted[k]);
+            if before >= i.total || !self.step.is_multiple_of(i.every) {
+                continue;
+            }
+            self.work.insertion += 1;
+            let batch = i.batch(before, self.step, &self.state, &self.walls);
+            self.inserted[k] += batch.len() as u64;
+            for body in &batch {
+                self.add(body)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// How many bodies each insertion has brought.
+    pub fn inserted(&self) -> &[u64] {
+        &self.inserted
+    }
+
+    /// Takes a body away.
+    pub fn remove(&mut self, label: u64) -> Result<()> {
+        let Ok(i) = self.state.label.binary_search(&label) else {
+            return Err(Error::IndexOutOfRange(format!("there is no body {label}")));
+        };
+        self.state.remove(i);
+        let i = i as u32;
+        self.broad.remove(i);
+        self.wall_pairs.retain_mut(|p| {
+            let keep = p.b != i;
+            p.b -= u32::from(p.b > i);
+            keep
+        });
+        Ok(())
+    }
+
+    /// Adds a template and returns its number.
+    pub fn add_template(&mut self, template: std::sync::Arc<super::template::Template>) -> u32 {
+        self.state.templates.push(template);
+        self.state.templates.len() as u32 - 1
+    }
+
+    /// Changes bodies in place. Lists of what is near are made anew.
+    pub fn edit<T>(&mut self, change: impl FnOnce(&mut State) -> T) -> T {
+        let out = change(&mut self.state);
+        (0..self.state.len()).for_each(|i| self.state.refresh(i));
+        self.broad.forget();
+        self.wall_pairs.iter_mut().for_each(Pair::forget);
+        out
+    }
+
+    /// Bytes that all of it holds.
+    pub fn bytes(&self) -> u64 {
+        let templates: u64 = self.state.templates.iter().map(|t| t.bytes()).sum();
+        let walls: u64 = self.walls.iter().map(Wall::bytes).sum();
+        let pairs: u64 = self.wall_pairs.iter().map(|p| p.bytes() + p.memory_bytes()).sum();
+        let held: u64 = self.broad.pairs.iter().map(Pair::memory_bytes).sum();
+        self.state.bytes() + templates + walls + pairs + held + self.broad.bytes()
+    }
+
+    /// What each effect did and holds.
+    pub fn effects(&self) -> Vec<EffectReport> {
+        let (c, w) = (&self.work.calls, &self.work);
+        let held: u64 =
+            self.broad.pairs.iter().chain(&self.wall_pairs).map(Pair::memory_bytes).sum();
+        let insertion = self.setup.insertion.capacity() * size_of::<Insertion>();
+        let moving = self.walls.iter().filter(|w| w.moves()).count() * size_of::<Wall>();
+        [
+            ("gravity", w.gravity, 0),
+            ("normal", c.normal, 0),
+            ("damping", c.damping, 0),
+            ("tangential", c.tangential, if c.tangential > 0 { held } else { 0 }),
+            ("rolling", c.rolling, 0),
+            ("cohesion", c.cohesion, if c.tangential > 0 { 0 } else { held }),
+            ("averaging", c.averaging, 0),
+            ("drag", w.drag, 0),
+            ("insertion", w.insertion, insertion as u64),
+            ("motion", w.motion, moving as u64),
+        ]
+        .map(|(name, calls, bytes)| EffectReport { name, calls, bytes })
+        .to_vec()
+    }
+
+    /// A checkpoint: with the same setup it goes on to the same bytes.
+    pub fn checkpoint(&self) -> Result<Vec<u8>> {
+        let width = self.kernel.as_ref().map_or(0, |k| k.width());
+        Snapshot {
+            step: self.step,
+            put_in: self.put_in,
+            inserted: self.inserted.clone(),
+            bodies: Bodies::of(&self.state),
+            pairs: snapshot::memories(&self.broad.pairs, width),
+            walls: snapshot::memories(&self.wall_pairs, width),
+            wall_force: self.wall_force.clone(),
+            wall_torque: self.wall_torque.clone(),
+        }
+        .to_bytes()
+    }
+
+    /// Goes on from a checkpoint of the same setup, which must have been started. Refused: what is none, is damaged, is of another
+    /// version, or of another number of walls or insertions.
+    pub fn resume(setup: Setup, checkpoint: &[u8]) -> Result<Engine> {
+        let s = Snapshot::of_bytes(checkpoint)?;
+        let mut engine = Engine::new(setup, s.bodies.state()?)?;
+        if s.wall_force.len() != engine.walls.len() || s.inserted.len() != engine.inserted.len() {
+            return Err(Error::InvalidArgument(format!(
+                "the checkpoint has {} walls and {} insertions, the scene {} and {}",
+                s.wall_force.len(),
+                s.inserted.len(),
+                engine.walls.len(),
+                engine.inserted.len()
+            )));
+        }
+        let width = engine.kernel.as_ref().map_or(0, |k| k.width());
+        engine.broad.pairs = snapshot::recalled(s.pairs, width);
+        engine.wall_pairs = snapshot::recalled(s.walls, width);
+        (engine.wall_force, engine.wall_torque) = (s.wall_force, s.wall_torque);
+        (engine.step, engine.put_in, engine.inserted) = (s.step, s.put_in, s.inserted);
+        let (time, dt) = (engine.time(), engine.setup.dt);
+        for wall in &mut engine.walls {
+            wall.to(time, dt);
+        }
+        engine.started = true;
+        Ok(engine)
     }
 
     fn potential(&self) -> f64 {
@@ -249,7 +428,9 @@ impl Engine {
         self.step += 1;
         let time = self.time();
         for wall in &mut self.walls {
-            wall.to(time, dt);
+            if wall.to(time, dt) {
+                self.work.motion += 1;
+            }
         }
         self.forces(run);
         integrate::kick(&mut self.state, dt);
@@ -257,6 +438,7 @@ impl Engine {
             let power = self.wall_force[i].dot(&wall.kin.v) + self.wall_torque[i].dot(&wall.kin.w);
             self.put_in -= power * dt;
         }
+        self.insert()?;
         if self.setup.guard && self.step.is_multiple_of(GUARD) {
             self.look()?;
         }
@@ -271,6 +453,10 @@ impl Engine {
         if let Some(g) = &self.setup.gravity {
             gravity::pull(&mut self.state, g);
             self.work.gravity += n as u64;
+        }
+        if let Some(d) = &self.setup.drag {
+            drag::slow(&mut self.state, d);
+            self.work.drag += n as u64;
         }
         let Some(kernel) = &self.kernel else { return };
         self.wall_force.fill(Vec3::zeros());

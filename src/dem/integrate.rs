@@ -1,6 +1,7 @@
 //! Velocity-Verlet for rigid bodies.
 
 use super::rotate::{exact, split};
+use super::small::{mul, tr_mul};
 use super::state::{Kin, State};
 
 /// Half a kick, then the whole drift: positions and orientations at the end of the step, velocities in its middle, and as
@@ -25,7 +26,7 @@ pub(crate) fn drift(state: &mut State, dt: f64, exactly: bool) {
         state.velocity[i] = vh;
         state.momentum[i] = lh;
         state.position[i] += vh * dt;
-        let body = state.kin[i].r.tr_mul(&lh);
+        let body = tr_mul(&state.kin[i].r, &lh);
         let turn =
             if exactly { exact(&body, t.inverse(), dt) } else { split(&body, t.inverse(), dt) };
         state.orientation[i].turn(&turn);
@@ -36,7 +37,7 @@ pub(crate) fn drift(state: &mut State, dt: f64, exactly: bool) {
         state.stride[i] = stride;
         state.moved[i] += stride;
         let r = state.orientation[i].matrix();
-        let spin = |l| r * t.inverse().component_mul(&r.tr_mul(&l));
+        let spin = |l| mul(&r, &t.inverse().component_mul(&tr_mul(&r, &l)));
         let (w, wh) = (spin(lh + torque * half), spin(lh));
         state.kin[i] = Kin { x: state.position[i], r, v: vh + kick, w, vh, wh };
     }

@@ -1,27 +1,33 @@
 //! Contacts of one pair of bodies, or of a wall and a body.
 //!
-//! A pair keeps the spheres that were nearer than a skin when its list was made, each with its gap, and how far the
-//! bodies may have moved since. Until they have moved by the gap two spheres cannot touch and are not looked at; until they have
-//! moved by the skin the list holds. Only then how far they have really moved against each other
-//! is reckoned, and only if that is much are the two trees searched again. What a step does is thus in proportion to the spheres that
-//! are about to touch, not to those of a body.
+//! A pair keeps a list of the spheres that were nearer than a skin when it was made. It holds until the two bodies
+//! have really moved against each other by the skin: then their trees are searched again. Of this list a short
+//! one is kept of those that are nearer than what the bodies can move in some tens of steps, each with its gap; until they have
+//! moved by that gap two spheres cannot touch and are not looked at. What a step does is thus in
+//! proportion to the spheres that are about to touch, not to those of a body.
 //!
 //! Forces depend on the state alone, never on when a list was made: contacts are summed in the order of their
 //! spheres, in the frame of the first body.
 
-use super::contact::{Action, Calls, Law, Motion};
+use super::contact::{Action, Law, Motion};
 use super::effects::averaging::Average;
 use super::effects::{Coefficients, Touch};
+use super::kernel::{Context, End, Scratch};
+use super::small::{between, mul, tr_mul};
 use super::state::Kin;
 use super::template::Template;
 use super::tree::Near;
-use super::walls::Wall;
 use crate::math::Vec3;
 use nalgebra::Matrix3;
 
-/// In so many steps a list should be used up.
-const LIFE: f64 = 64.0;
-/// The least and the greatest skin, as parts of the smaller bound.
+/// In so many steps the long list should be used up: the least, and the most.
+const LIFE: [f64; 2] = [128.0, 8192.0];
+/// What a sphere of the long list costs in a step, of what a search does to look at two balls: they are looked at
+/// once in [`SHORT`] steps.
+const KEPT: f64 = 0.03;
+/// In so many steps the short list should be used up.
+const SHORT: f64 = 48.0;
+/// The least and the greatest skin, as parts of the bound.
 const SKIN: [f64; 2] = [1e-4, 0.1];
 
 /// Force and torques on the two bodies of a pair, along the axes of space.
@@ -41,18 +47,30 @@ pub(crate) struct Pair {
     pub touching: u32,
     /// Until they have moved so far together nothing touches.
     pub wake: f64,
-    /// Until they have moved so far together the list holds.
+    /// Until they have moved so far together the short list holds, made when they had moved so far.
     expire: f64,
-    /// Gaps are those of this.
-    built: f64,
-    /// Place and turn of the second in the frame of the first when the list was made.
+    made: f64,
+    /// Whether there is a long list, its skin, and the place and turn of the second in the frame of the first when
+    /// it was made.
+    listed: bool,
+    skin: f64,
     shift: Vec3,
     turn: Matrix3<f64>,
+    /// Steps that the next long list should last: many where searches are dear.
+    life: f64,
     near: Vec<Near>,
+    short: Vec<Short>,
     memory: Vec<f64>,
     pub average: Average,
     /// Of this step, where it is not given to the bodies at once.
     pub wrench: Option<Wrench>,
+}
+
+/// One of the short list: its number in the long one, and its gap.
+#[derive(Debug, Clone, Copy)]
+struct Short {
+    k: u32,
+    gap: f64,
 }
 
 /// One contact, for those who look.
@@ -76,72 +94,6 @@ pub struct ContactRecord {
     pub energy: f64,
 }
 
-/// What a pair needs to know of everything else.
-pub(crate) struct Context<'a> {
-    pub kin: &'a [Kin],
-    pub moved: &'a [f64],
-    pub stride: &'a [f64],
-    pub templates: &'a [std::sync::Arc<Template>],
-    pub template: &'a [u32],
-    pub material: &'a [u32],
-    pub fixed: &'a [bool],
-    pub walls: &'a [Wall],
-    pub materials: usize,
-    pub coefficients: &'a [Coefficients],
-    /// How far beyond touching a contact may act, and a little more for rounding: whether two spheres touch is
-    /// never decided by a list.
-    pub range: f64,
-    pub dt: f64,
-    /// Whether damping goes by the mass that the contact feels.
-    pub felt: bool,
-    pub averaging: bool,
-}
-
-/// Room that searches use again and again.
-#[derive(Debug, Default)]
-pub(crate) struct Scratch {
-    near: Vec<Near>,
-    memory: Vec<f64>,
-    stack: Vec<[u32; 2]>,
-    pub calls: Calls,
-    pub contacts: u64,
-    pub searches: u64,
-}
-
-/// One end of a pair.
-pub(crate) struct End<'a> {
-    kin: &'a Kin,
-    moved: f64,
-    stride: f64,
-    inverse_mass: f64,
-    inertia: Vec3,
-}
-
-impl Context<'_> {
-    fn template(&self, i: u32) -> &Template {
-        &self.templates[self.template[i as usize] as usize]
-    }
-
-    fn body(&self, i: u32) -> End<'_> {
-        let (at, t) = (i as usize, self.template(i));
-        let (inverse_mass, inertia) =
-            if self.fixed[at] { (0.0, Vec3::zeros()) } else { (1.0 / t.mass(), *t.inverse()) };
-        End {
-            kin: &self.kin[at],
-            moved: self.moved[at],
-            stride: self.stride[at],
-            inverse_mass,
-            inertia,
-        }
-    }
-
-    fn wall(&self, i: u32) -> End<'_> {
-        let w = &self.walls[i as usize];
-        let (inverse_mass, inertia) = (0.0, Vec3::zeros());
-        End { kin: &w.kin, moved: w.moved, stride: w.stride, inverse_mass, inertia }
-    }
-}
-
 /// Where two surfaces are nearest: normal from the first to the second, gap, effective radius, place.
 pub(crate) struct Meeting {
     pub normal: Vec3,
@@ -156,9 +108,13 @@ pub(crate) trait Surface {
     fn turns(&self) -> bool {
         false
     }
+    /// Whether a sphere goes from one feature of it to the next as it moves along.
+    fn parts(&self) -> bool {
+        false
+    }
     /// A lower bound of the gap to a ball.
     fn far(&self, center: &Vec3, radius: f64) -> f64;
-    /// Finds what of it is nearer than `reach` to which spheres of `body`.
+    /// Finds what of it is nearer than `reach` to which spheres of `body`; returns how much was looked at.
     fn search(
         &self,
         body: &Template,
@@ -166,7 +122,9 @@ pub(crate) trait Surface {
         reach: f64,
         stack: &mut Vec<[u32; 2]>,
         found: &mut Vec<Near>,
-    );
+    ) -> u64;
+    /// How far feature `a` of it is from a sphere, whoever meets it.
+    fn gap(&self, a: u32, center: &Vec3, radius: f64) -> f64;
     /// How feature `a` of it meets a sphere; `None` where another feature does.
     fn meet(&self, a: u32, center: &Vec3, radius: f64) -> Option<Meeting>;
 }
@@ -184,15 +142,27 @@ impl Surface for Template {
         reach: f64,
         stack: &mut Vec<[u32; 2]>,
         found: &mut Vec<Near>,
-    ) {
+    ) -> u64 {
         let (own, other) = (self.spheres(), body.spheres());
-        self.tree().pairs(body.tree(), (shift, turn), reach, stack, |i, j| {
-            let (s, t) = (&own[i as usize], &other[j as usize]);
-            let gap = (turn * t.center + shift - s.center).norm() - s.radius - t.radius;
-            if gap < reach {
-                found.push(Near { a: i, b: j, gap });
+        self.tree().pairs(body.tree(), (shift, turn), reach, stack, |p, q| {
+            for (t, j) in other[q.clone()].iter().zip(q) {
+                let center = mul(turn, &t.center) + shift;
+                for (s, i) in own[p.clone()].iter().zip(p.clone()) {
+                    let d = (center - s.center).norm_squared();
+                    let far = s.radius + t.radius + reach;
+                    if d < far * far {
+                        let gap = d.sqrt() - s.radius - t.radius;
+                        found.push(Near { a: i as u32, b: j as u32, gap });
+                    }
+                }
             }
-        });
+        })
+    }
+
+    #[inline(always)]
+    fn gap(&self, a: u32, center: &Vec3, radius: f64) -> f64 {
+        let s = &self.spheres()[a as usize];
+        (center - s.center).norm() - (s.radius + radius)
     }
 
     #[inline(always)]
@@ -213,6 +183,14 @@ impl Surface for Template {
     }
 }
 
+/// Forgets a contact.
+#[inline(always)]
+fn clear(memory: &mut [f64]) {
+    if memory.iter().any(|m| *m != 0.0) {
+        memory.fill(0.0);
+    }
+}
+
 impl Pair {
     /// A pair of which nothing is known.
     pub fn new(a: u32, b: u32) -> Pair {
@@ -222,10 +200,14 @@ impl Pair {
             touching: 0,
             wake: -1.0,
             expire: -1.0,
-            built: 0.0,
+            made: 0.0,
+            listed: false,
+            skin: 0.0,
             shift: Vec3::zeros(),
             turn: Matrix3::identity(),
+            life: 4.0 * LIFE[0],
             near: Vec::new(),
+            short: Vec::new(),
             memory: Vec::new(),
             average: Average::default(),
             wrench: None,
@@ -234,7 +216,7 @@ impl Pair {
 
     /// Forgets its list, not its contacts.
     pub fn forget(&mut self) {
-        (self.wake, self.expire) = (-1.0, -1.0);
+        (self.wake, self.expire, self.listed) = (-1.0, -1.0, false);
     }
 
     /// Whether there is anything that a later step needs.
@@ -243,7 +225,9 @@ impl Pair {
     }
 
     pub fn bytes(&self) -> u64 {
-        (size_of::<Pair>() + self.near.capacity() * size_of::<Near>()) as u64
+        let lists =
+            self.near.capacity() * size_of::<Near>() + self.short.capacity() * size_of::<Short>();
+        (size_of::<Pair>() + lists) as u64
     }
 
     pub fn memory_bytes(&self) -> u64 {
@@ -257,10 +241,10 @@ impl Pair {
     }
 
     /// Takes over what contacts remember: (spheres, numbers), in order.
-    pub fn recall(&mut self, width: usize, memories: &[((u32, u32), Vec<f64>)]) {
+    pub fn recall(&mut self, width: usize, memories: &[(u32, u32, Vec<f64>)]) {
         self.near.clear();
         self.memory.clear();
-        for ((a, b), memory) in memories {
+        for (a, b, memory) in memories.iter().filter(|m| m.2.len() == width) {
             // A list that has expired, of contacts of which only the memory counts.
             self.near.push(Near { a: *a, b: *b, gap: 0.0 });
             self.memory.extend(memory.iter().take(width));
@@ -280,8 +264,8 @@ impl Pair {
     ) -> Option<Wrench> {
         let moved = a.moved + b.moved;
         let (ka, kb) = (a.kin, b.kin);
-        let turn = ka.r.transpose() * kb.r;
-        let shift = ka.r.tr_mul(&(kb.x - ka.x));
+        let turn = between(&ka.r, &kb.r);
+        let shift = tr_mul(&ka.r, &(kb.x - ka.x));
         let body = context.template(self.b);
         if moved > self.expire || S::turns(first) {
             self.renew(
@@ -299,10 +283,9 @@ impl Pair {
                 return None;
             }
         }
-        let to = |v: Vec3| ka.r.tr_mul(&v);
+        let to = |v: Vec3| tr_mul(&ka.r, &v);
         let inverse_mass = a.inverse_mass + b.inverse_mass;
         let motion = Motion {
-            shift,
             turn,
             v: to(kb.v - ka.v),
             wa: to(ka.w),
@@ -314,22 +297,25 @@ impl Pair {
             inverse_mass,
             mass: 1.0 / inverse_mass,
         };
-        let used = moved - self.built + context.range;
+        let used = moved - self.made + context.range;
         let spheres = body.spheres();
+        if L::WIDTH > 0 && first.parts() {
+            self.hand_on(first, body, (&shift, &turn), L::WIDTH);
+        }
         let (mut force, mut torques) = (Vec3::zeros(), [Vec3::zeros(); 2]);
-        let (mut count, mut elastic, mut closest) = (0u32, 0.0, f64::MAX);
-        for (k, near) in self.near.iter().enumerate() {
-            if near.gap > used {
-                closest = closest.min(near.gap - used);
+        let (mut count, mut elastic, mut closest) = (0u32, 0.0, self.expire - moved);
+        for short in &self.short {
+            if short.gap > used {
+                closest = closest.min(short.gap - used);
                 continue;
             }
+            let k = short.k as usize;
+            let near = &self.near[k];
             let s = &spheres[near.b as usize];
-            let center = turn * s.center + shift;
+            let center = mul(&turn, &s.center) + shift;
             let memory = &mut self.memory[k * L::WIDTH..(k + 1) * L::WIDTH];
             let Some(m) = first.meet(near.a, &center, s.radius) else {
-                if L::WIDTH > 0 {
-                    memory.fill(0.0);
-                }
+                clear(memory);
                 closest = closest.min(0.0);
                 continue;
             };
@@ -350,9 +336,7 @@ impl Pair {
             }
             let Some(Action { force: f, couple, elastic: e }) = action else {
                 closest = closest.min(m.gap - context.range);
-                if L::WIDTH > 0 {
-                    memory.fill(0.0);
-                }
+                clear(memory);
                 continue;
             };
             count += 1;
@@ -362,7 +346,7 @@ impl Pair {
             torques[1] += (m.point - shift).cross(&f) + couple;
         }
         if count == 0 {
-            self.wake = (moved + closest.max(0.0)).min(self.expire);
+            self.wake = moved + closest.max(0.0);
             self.idle();
             return None;
         }
@@ -374,7 +358,7 @@ impl Pair {
             force *= share;
             torques = torques.map(|t| t * share);
         }
-        Some(Wrench { force: ka.r * force, torques: torques.map(|t| ka.r * t) })
+        Some(Wrench { force: mul(&ka.r, &force), torques: torques.map(|t| mul(&ka.r, &t)) })
     }
 
     #[inline]
@@ -385,7 +369,7 @@ impl Pair {
         }
     }
 
-    /// Finds out how far the two have really moved, and searches again where that is much.
+    /// Makes the short list anew from the long one, and that too where the bodies have really moved far.
     #[allow(clippy::too_many_arguments)]
     #[inline(never)]
     fn renew<S: Surface>(
@@ -399,53 +383,77 @@ impl Pair {
         context: &Context,
         scratch: &mut Scratch,
     ) {
-        let skin = self.expire - self.built;
-        if self.expire >= 0.0 && skin > 0.0 {
-            // No point of the second moves farther than its centre does and the turn takes the farthest.
-            let turned = (turn - self.turn).norm() * std::f64::consts::FRAC_1_SQRT_2;
-            let really = (shift - self.shift).norm() + turned * body.reach();
-            let really = really * (1.0 + 1e-12);
-            if really < 0.5 * skin {
-                self.built = moved - really;
-                self.expire = self.built + skin;
-                if width > 0 {
-                    let used = really + context.range;
-                    for (near, memory) in self.near.iter().zip(self.memory.chunks_mut(width)) {
-                        if near.gap > used {
-                            memory.fill(0.0);
-                        }
-                    }
-                }
-                let least = self.near.iter().map(|n| n.gap).fold(f64::MAX, f64::min);
-                self.wake = (self.built + least - context.range).min(self.expire);
+        let bound = body.bound();
+        // No point of the second moves farther than its centre does and the turn takes the farthest.
+        let turned = (turn - self.turn).norm() * std::f64::consts::FRAC_1_SQRT_2;
+        let mut really = ((shift - self.shift).norm() + turned * body.reach()) * (1.0 + 1e-12);
+        let mut more = (SHORT * stride).max(0.25 * SKIN[0] * bound);
+        if !(self.listed && really + more <= self.skin) {
+            let far = first.far(shift, bound) - context.range;
+            let skin = (self.life * stride).clamp(SKIN[0] * bound, SKIN[1] * bound);
+            self.short.clear();
+            if far > skin {
+                // Too far for any of their spheres: nothing until they have come that near.
+                (self.wake, self.expire, self.listed) = (moved + far, moved + far, false);
+                self.near.clear();
+                self.memory.clear();
                 return;
             }
+            self.list(first, body, (shift, turn), skin, width, context.range, scratch);
+            really = 0.0;
         }
-        (self.built, self.shift, self.turn) = (moved, *shift, *turn);
-        let bound = body.bound();
-        let skin = (LIFE * stride).clamp(SKIN[0] * bound, SKIN[1] * bound);
-        let far = first.far(shift, bound) - context.range;
+        // What is not in the long list is farther than this.
+        more = more.min(self.skin - really);
+        self.short.clear();
+        let mut least = f64::MAX;
+        for (k, near) in self.near.iter().enumerate() {
+            let mut gap = near.gap - really;
+            if gap <= more + context.range {
+                let s = &body.spheres()[near.b as usize];
+                gap = first.gap(near.a, &(mul(turn, &s.center) + shift), s.radius);
+                if gap <= more + context.range {
+                    self.short.push(Short { k: k as u32, gap });
+                }
+            }
+            least = least.min(gap);
+            if width > 0 && gap > context.range {
+                clear(&mut self.memory[k * width..(k + 1) * width]);
+            }
+        }
+        self.made = moved;
+        self.expire = moved + more;
+        if self.short.is_empty() {
+            // Nothing is that near: until the nearest may be.
+            self.expire = moved + (least - context.range).min(self.skin - really).max(more);
+        }
+        self.wake = self.expire.min(moved + (least - context.range));
+    }
+
+    /// Makes the long list anew.
+    #[allow(clippy::too_many_arguments)]
+    fn list<S: Surface>(
+        &mut self,
+        first: &S,
+        body: &Template,
+        (shift, turn): (&Vec3, &Matrix3<f64>),
+        skin: f64,
+        width: usize,
+        range: f64,
+        scratch: &mut Scratch,
+    ) {
+        (self.listed, self.skin, self.shift, self.turn) = (true, skin, *shift, *turn);
         scratch.near.clear();
-        if far > skin {
-            // Too far for any of their spheres: nothing until they have come that near.
-            (self.wake, self.expire) = (moved + far, moved + far);
-            self.near.clear();
-            self.memory.clear();
-            // The skin says nothing of such a list.
-            self.built = self.expire;
-            return;
-        }
         scratch.searches += 1;
-        let reach = skin + context.range;
-        first.search(body, (shift, turn), reach, &mut scratch.stack, &mut scratch.near);
-        scratch.near.sort_unstable_by_key(|n| (n.b, n.a));
+        let near = &mut scratch.near;
+        let looked = first.search(body, (shift, turn), skin + range, &mut scratch.stack, near);
+        // Where a search costs as much as its list does while it lasts.
+        let wanted = looked as f64 / (1.0 + KEPT * near.len() as f64);
+        self.life = (0.5 * (self.life + wanted)).clamp(LIFE[0], LIFE[1]);
+        near.sort_unstable_by_key(|n| (n.b, n.a));
         if width > 0 {
-            self.carry(width, context.range, scratch);
+            self.carry(width, range, scratch);
         }
         std::mem::swap(&mut self.near, &mut scratch.near);
-        self.expire = moved + skin;
-        let least = self.near.iter().map(|n| n.gap).fold(f64::MAX, f64::min);
-        self.wake = (moved + least - context.range).min(self.expire);
     }
 
     /// Takes what contacts remember over to the new list; both are in order.
@@ -466,6 +474,39 @@ impl Pair {
         std::mem::swap(&mut self.memory, &mut scratch.memory);
     }
 
+    /// Where a sphere has gone from one feature of a wall to the next, so does what its contact remembers.
+    #[inline(never)]
+    fn hand_on<S: Surface>(
+        &mut self,
+        first: &S,
+        body: &Template,
+        (shift, turn): (&Vec3, &Matrix3<f64>),
+        width: usize,
+    ) {
+        let touches = |near: &Near| {
+            let s = &body.spheres()[near.b as usize];
+            first
+                .meet(near.a, &(mul(turn, &s.center) + shift), s.radius)
+                .is_some_and(|m| m.gap < 0.0)
+        };
+        let free = |memory: &[f64]| memory.iter().all(|m| *m == 0.0);
+        for k in 0..self.near.len() {
+            let near = self.near[k];
+            if free(&self.memory[k * width..(k + 1) * width]) || touches(&near) {
+                continue;
+            }
+            let from = self.near[..k].iter().rposition(|n| n.b != near.b).map_or(0, |p| p + 1);
+            let group = (from..self.near.len()).take_while(|&j| self.near[j].b == near.b);
+            let next = group.into_iter().find(|&j| {
+                j != k && free(&self.memory[j * width..(j + 1) * width]) && touches(&self.near[j])
+            });
+            if let Some(j) = next {
+                self.memory.copy_within(k * width..(k + 1) * width, j * width);
+                self.memory[k * width..(k + 1) * width].fill(0.0);
+            }
+        }
+    }
+
     /// Its contacts as they are, with what their springs hold.
     pub fn records<L: Law, S: Surface>(
         &self,
@@ -478,11 +519,11 @@ impl Pair {
         if self.touching == 0 {
             return;
         }
-        let turn = a.r.transpose() * b.r;
-        let shift = a.r.tr_mul(&(b.x - a.x));
+        let turn = between(&a.r, &b.r);
+        let shift = tr_mul(&a.r, &(b.x - a.x));
         for (k, near) in self.near.iter().enumerate() {
             let s = &context.template(self.b).spheres()[near.b as usize];
-            let center = turn * s.center + shift;
+            let center = mul(&turn, &s.center) + shift;
             let memory = &self.memory[k * L::WIDTH..(k + 1) * L::WIDTH];
             let Some(m) = first.meet(near.a, &center, s.radius) else { continue };
             let lasting =
@@ -500,144 +541,5 @@ impl Pair {
                 });
             }
         }
-    }
-}
-
-/// What one composition of laws does with all pairs of a list.
-pub(crate) trait Kernel: Send + Sync {
-    /// How many numbers a contact remembers.
-    fn width(&self) -> usize;
-    /// Forces of pairs of bodies; each is given to `give`, or kept with its pair where there is none.
-    fn bodies(
-        &self,
-        pairs: &mut [Pair],
-        context: &Context,
-        scratch: &mut Scratch,
-        give: Option<&mut Sums>,
-    );
-    /// Forces of walls on bodies.
-    fn walls(
-        &self,
-        pairs: &mut [Pair],
-        context: &Context,
-        scratch: &mut Scratch,
-        give: Option<&mut Sums>,
-    );
-    /// The contacts as they are.
-    fn records(
-        &self,
-        bodies: &[Pair],
-        walls: &[Pair],
-        context: &Context,
-    ) -> [Vec<ContactRecord>; 2];
-}
-
-/// Forces and torques of all bodies, and of all walls about their origins.
-pub(crate) struct Sums<'a> {
-    pub force: &'a mut [Vec3],
-    pub torque: &'a mut [Vec3],
-    pub wall_force: &'a mut [Vec3],
-    pub wall_torque: &'a mut [Vec3],
-}
-
-impl Sums<'_> {
-    #[inline(always)]
-    pub fn bodies(&mut self, pair: &Pair, w: &Wrench) {
-        let (a, b) = (pair.a as usize, pair.b as usize);
-        self.force[a] -= w.force;
-        self.force[b] += w.force;
-        self.torque[a] += w.torques[0];
-        self.torque[b] += w.torques[1];
-    }
-
-    #[inline(always)]
-    pub fn wall(&mut self, pair: &Pair, w: &Wrench) {
-        let (a, b) = (pair.a as usize, pair.b as usize);
-        self.wall_force[a] -= w.force;
-        self.wall_torque[a] += w.torques[0];
-        self.force[b] += w.force;
-        self.torque[b] += w.torques[1];
-    }
-}
-
-/// A kernel for a law.
-pub(crate) struct Of<L>(pub std::marker::PhantomData<L>);
-
-impl<L: Law> Kernel for Of<L> {
-    fn width(&self) -> usize {
-        L::WIDTH
-    }
-
-    fn bodies(
-        &self,
-        pairs: &mut [Pair],
-        context: &Context,
-        scratch: &mut Scratch,
-        mut give: Option<&mut Sums>,
-    ) {
-        for pair in pairs {
-            let (a, b) = (pair.a as usize, pair.b as usize);
-            if context.moved[a] + context.moved[b] <= pair.wake {
-                pair.wrench = None;
-                continue;
-            }
-            let row = context.material[a] as usize * context.materials;
-            let c = &context.coefficients[row + context.material[b] as usize];
-            let ends = (&context.body(pair.a), &context.body(pair.b));
-            let wrench =
-                pair.act::<L, Template>(context.template(pair.a), ends, context, c, scratch);
-            match (&mut give, wrench) {
-                (Some(sums), Some(w)) => sums.bodies(pair, &w),
-                _ => pair.wrench = wrench,
-            }
-        }
-    }
-
-    fn walls(
-        &self,
-        pairs: &mut [Pair],
-        context: &Context,
-        scratch: &mut Scratch,
-        mut give: Option<&mut Sums>,
-    ) {
-        for pair in pairs {
-            let (a, b) = (pair.a as usize, pair.b as usize);
-            let wall = &context.walls[a];
-            if wall.moved + context.moved[b] <= pair.wake && !wall.turning {
-                pair.wrench = None;
-                continue;
-            }
-            let row = wall.material as usize * context.materials;
-            let c = &context.coefficients[row + context.material[b] as usize];
-            let ends = (&context.wall(pair.a), &context.body(pair.b));
-            let wrench = pair.act::<L, Wall>(wall, ends, context, c, scratch);
-            match (&mut give, wrench) {
-                (Some(sums), Some(w)) => sums.wall(pair, &w),
-                _ => pair.wrench = wrench,
-            }
-        }
-    }
-
-    fn records(
-        &self,
-        bodies: &[Pair],
-        walls: &[Pair],
-        context: &Context,
-    ) -> [Vec<ContactRecord>; 2] {
-        let mut found = [Vec::new(), Vec::new()];
-        let c = |a: u32, b: u32| &context.coefficients[a as usize * context.materials + b as usize];
-        for p in bodies {
-            let (a, b) = (p.a as usize, p.b as usize);
-            let kin = (&context.kin[a], &context.kin[b]);
-            let c = c(context.material[a], context.material[b]);
-            p.records::<L, Template>(context.template(p.a), kin, context, c, &mut found[0]);
-        }
-        for p in walls {
-            let (wall, b) = (&context.walls[p.a as usize], p.b as usize);
-            let kin = (&wall.kin, &context.kin[b]);
-            let c = c(wall.material, context.material[b]);
-            p.records::<L, Wall>(wall, kin, context, c, &mut found[1]);
-        }
-        found
     }
 }

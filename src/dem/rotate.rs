@@ -111,23 +111,36 @@ fn then(a: &Turn, b: &Turn) -> Turn {
     ]
 }
 
+/// Appends a turn about axis `K`, whose component of the momentum is an angle of `rate`, and turns the momentum
+/// the other way.
+#[inline(always)]
+fn about<const K: usize>(whole: &mut Turn, l: &mut Vec3, rate: f64) {
+    let (i, j) = ((K + 1) % 3, (K + 2) % 3);
+    let (s, c) = half(0.5 * rate * l[K]);
+    let [p, ..] = *whole;
+    let v = [whole[1], whole[2], whole[3]];
+    whole[0] = p + c + (p * c - v[K] * s);
+    whole[1 + K] = v[K] + (s + (p * s + v[K] * c));
+    whole[1 + i] = v[i] + (v[i] * c + v[j] * s);
+    whole[1 + j] = v[j] + (v[j] * c - v[i] * s);
+    // sin φ = 2 s (1 + c), cos φ = 1 − 2 s².
+    let (sine, less) = (2.0 * s * (1.0 + c), -2.0 * s * s);
+    let (li, lj) = (l[i], l[j]);
+    l[i] = li + (less * li + sine * lj);
+    l[j] = lj + (less * lj - sine * li);
+}
+
 /// The turn in `dt` by splitting, of a body with this angular momentum along its own axes.
 #[inline]
 pub(crate) fn split(momentum: &Vec3, inverse: &Vec3, dt: f64) -> Turn {
     let mut l = *momentum;
     let mut whole = [0.0; 4];
-    for (k, h) in [(2, 0.5 * dt), (1, 0.5 * dt), (0, dt), (1, 0.5 * dt), (2, 0.5 * dt)] {
-        let (s, c) = half(0.5 * (h * inverse[k]) * l[k]);
-        let mut turn = [c, 0.0, 0.0, 0.0];
-        turn[k + 1] = s;
-        whole = then(&whole, &turn);
-        // The momentum turns the other way in the body: sin φ = 2 s (1 + c), cos φ = 1 − 2 s².
-        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        let (sine, less) = (2.0 * s * (1.0 + c), -2.0 * s * s);
-        let (li, lj) = (l[i], l[j]);
-        l[i] = li + (less * li + sine * lj);
-        l[j] = lj + (less * lj - sine * li);
-    }
+    let rate = inverse * dt;
+    about::<2>(&mut whole, &mut l, 0.5 * rate.z);
+    about::<1>(&mut whole, &mut l, 0.5 * rate.y);
+    about::<0>(&mut whole, &mut l, rate.x);
+    about::<1>(&mut whole, &mut l, 0.5 * rate.y);
+    about::<2>(&mut whole, &mut l, 0.5 * rate.z);
     whole
 }
 

@@ -1,6 +1,7 @@
 //! The bodies: one array for each of their properties.
 
 use super::rotate::Orientation;
+use super::small::{mul, tr_mul};
 use super::template::Template;
 use crate::error::{Error, Result, push};
 use crate::math::Vec3;
@@ -191,7 +192,7 @@ impl State {
             return Vec3::zeros();
         }
         let r = self.orientation[i].matrix();
-        r * self.template_of(i).inverse().component_mul(&r.tr_mul(&self.momentum[i]))
+        mul(&r, &self.template_of(i).inverse().component_mul(&tr_mul(&r, &self.momentum[i])))
     }
 
     /// The centre of sphere `s` of body `i` (in the order of its template) in space.

@@ -1,8 +1,10 @@
 //! A tree of bounding spheres over the spheres of a template.
 
+use super::small::mul;
 use crate::error::{Result, reserve};
 use crate::math::{Sphere, Vec3};
 use nalgebra::Matrix3;
+use std::ops::Range;
 
 /// At most so many spheres in a leaf.
 const LEAF: usize = 4;
@@ -49,56 +51,63 @@ impl Tree {
         (self.nodes.capacity() * size_of::<Node>()) as u64
     }
 
-    /// Every sphere for which `within` a ball (centre, radius) says that it is not surely too far.
+    /// Every sphere for which `within` a ball (centre, radius) says that it is not surely too far. Returns how many balls were
+    /// looked at.
     pub fn each(
         &self,
         stack: &mut Vec<[u32; 2]>,
         within: impl Fn(&Vec3, f64) -> bool,
         mut found: impl FnMut(u32),
-    ) {
+    ) -> u64 {
+        let mut looked = 0;
         stack.clear();
         if !self.nodes.is_empty() {
             stack.push([0, 0]);
         }
         while let Some([n, _]) = stack.pop() {
+            looked += 1;
             let node = &self.nodes[n as usize];
             if !within(&node.center, node.radius) {
                 continue;
             }
             if node.other == 0 {
+                looked += u64::from(node.to - node.from);
                 (node.from..node.to).for_each(&mut found);
             } else {
                 stack.push([node.other, 0]);
                 stack.push([n + 1, 0]);
             }
         }
+        looked
     }
 
-    /// Every pair of leaves' spheres whose balls come within `reach` of each other, `other` being turned by
-    /// `turn` and shifted by `shift` into the frame of `self`.
+    /// Every pair of leaves, each as the range of its spheres, whose balls come within `reach` of each other, `other` being turned by
+    /// `turn` and shifted by `shift` into the frame of `self`. Returns how many pairs of balls were looked at.
     pub fn pairs(
         &self,
         other: &Tree,
         (shift, turn): (&Vec3, &Matrix3<f64>),
         reach: f64,
         stack: &mut Vec<[u32; 2]>,
-        mut found: impl FnMut(u32, u32),
-    ) {
+        mut found: impl FnMut(Range<usize>, Range<usize>),
+    ) -> u64 {
+        let mut looked = 0;
         stack.clear();
         if !self.nodes.is_empty() && !other.nodes.is_empty() {
             stack.push([0, 0]);
         }
         while let Some([n, m]) = stack.pop() {
+            looked += 1;
             let (p, q) = (&self.nodes[n as usize], &other.nodes[m as usize]);
             let far = p.radius + q.radius + reach;
-            if (turn * q.center + shift - p.center).norm_squared() > far * far {
+            if (mul(turn, &q.center) + shift - p.center).norm_squared() > far * far {
                 continue;
             }
             match (p.other, q.other) {
                 (0, 0) => {
-                    for i in p.from..p.to {
-                        (q.from..q.to).for_each(|j| found(i, j));
-                    }
+                    looked += u64::from((p.to - p.from) * (q.to - q.from));
+                    let range = |n: &Node| n.from as usize..n.to as usize;
+                    found(range(p), range(q));
                 }
                 // The larger ball is opened.
                 (second, m2) if second != 0 && (m2 == 0 || p.radius >= q.radius) => {
@@ -111,6 +120,7 @@ impl Tree {
                 }
             }
         }
+        looked
     }
 }
 
@@ -174,10 +184,9 @@ mod tests {
                     d - a[i].radius - b[j].radius
                 };
                 let mut found = Vec::new();
-                ta.pairs(&tb, (&shift, &turn), reach, &mut stack, |i, j| {
-                    if gap(i as usize, j as usize) < reach {
-                        found.push((i as usize, j as usize));
-                    }
+                ta.pairs(&tb, (&shift, &turn), reach, &mut stack, |p, q| {
+                    let all = p.flat_map(|i| q.clone().map(move |j| (i, j)));
+                    found.extend(all.filter(|&(i, j)| gap(i, j) < reach));
                 });
                 found.sort_unstable();
                 let all = (0..n).flat_map(|i| (0..m).map(move |j| (i, j)));

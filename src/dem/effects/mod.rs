@@ -6,13 +6,16 @@
 pub mod averaging;
 pub mod cohesion;
 pub mod damping;
+pub mod drag;
 pub mod gravity;
+pub mod insertion;
 pub mod motion;
 pub mod normal;
 pub mod rolling;
 pub mod tangential;
 
 use super::contact::Motion;
+use super::small::tr_mul;
 use crate::error::{Error, Result, figure};
 use crate::math::Vec3;
 
@@ -79,7 +82,7 @@ impl Touch<'_> {
     pub fn felt_mass(&self) -> f64 {
         let m = self.motion;
         let a = self.arms[0].cross(&self.normal);
-        let b = m.turn.tr_mul(&self.arms[1].cross(&self.normal));
+        let b = tr_mul(&m.turn, &self.arms[1].cross(&self.normal));
         let turned =
             a.dot(&a.component_mul(&m.inertia[0])) + b.dot(&b.component_mul(&m.inertia[1]));
         1.0 / (m.inverse_mass + turned)

@@ -18,8 +18,6 @@ pub(crate) struct Elastic {
 
 /// A law of repulsion.
 pub(crate) trait Normal: Copy + Debug + Send + Sync + 'static {
-    /// Whether contacts of this law have an area, of radius √(R δ).
-    const HERTZ: bool;
     /// At an overlap of two spheres of effective radius `radius`.
     fn push(c: &Coefficients, overlap: f64, radius: f64) -> Elastic;
     /// The work it takes to get there.
@@ -35,8 +33,6 @@ pub(crate) struct Linear;
 pub(crate) struct Hertz;
 
 impl Normal for Linear {
-    const HERTZ: bool = false;
-
     #[inline(always)]
     fn push(c: &Coefficients, overlap: f64, _: f64) -> Elastic {
         Elastic { force: c.stiffness * overlap, stiffness: c.stiffness, shear: c.shear, pull: 0.0 }
@@ -48,8 +44,6 @@ impl Normal for Linear {
 }
 
 impl Normal for Hertz {
-    const HERTZ: bool = true;
-
     #[inline(always)]
     fn push(c: &Coefficients, overlap: f64, radius: f64) -> Elastic {
         let area = (radius * overlap).sqrt();

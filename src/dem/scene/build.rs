@@ -128,6 +128,8 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
         coefficients: if names.is_empty() { vec![Coefficients::default()] } else { coefficients },
         walls,
         gravity: file.effects.gravity.map(Vec3::from),
+        drag: None,
+        insertion: Vec::new(),
         exact_rotation: r.rotation == RotationName::Exact,
         guard: r.guard,
     };

@@ -1,13 +1,19 @@
 //! Walls: what bodies touch and cannot move.
 
-use crate::dem::effects::motion::WallMotion;
-use crate::dem::narrow::{Meeting, Surface};
-use crate::dem::state::Kin;
-use crate::dem::template::Template;
-use crate::dem::tree::Near;
-use crate::error::{Error, Result, figure};
+mod mesh;
+mod sides;
+
+use super::effects::motion::WallMotion;
+use super::narrow::{Meeting, Surface};
+use super::state::Kin;
+use super::template::Template;
+use super::tree::Near;
+use crate::error::{Error, Result};
 use crate::math::Vec3;
+use mesh::Mesh;
 use nalgebra::Matrix3;
+use sides::Sides;
+use std::sync::Arc;
 
 /// The shape of a wall, in space at the start.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +43,14 @@ pub enum WallShape {
         /// Length between its ends; `None`: without ends.
         length: Option<f64>,
     },
+    /// Triangles, touched on both sides, in faces, edges and corners, each place once. A sphere whose centre has come
+    /// through is driven out on the other side.
+    Mesh {
+        /// Vertices.
+        vertices: Vec<Vec3>,
+        /// Three of them for each triangle.
+        triangles: Vec<[u32; 3]>,
+    },
 }
 
 /// A wall as a scene names it.
@@ -50,10 +64,17 @@ pub struct WallSetup {
     pub motion: WallMotion,
 }
 
+impl WallSetup {
+    /// A wall of material 0 that stays.
+    pub fn still(shape: WallShape) -> WallSetup {
+        WallSetup { shape, material: 0, motion: WallMotion::Still }
+    }
+}
+
 /// A wall in its own frame, whose origin is what it turns about.
 #[derive(Debug, Clone)]
 pub(crate) struct Wall {
-    sides: Sides,
+    form: Form,
     pub material: u32,
     pub motion: WallMotion,
     pub kin: Kin,
@@ -64,11 +85,10 @@ pub(crate) struct Wall {
     pub turning: bool,
 }
 
-/// Planes, each (normal, offset), and a cylinder (point, axis, radius) as the feature after them.
 #[derive(Debug, Clone)]
-struct Sides {
-    planes: Vec<(Vec3, f64)>,
-    round: Option<(Vec3, Vec3, f64)>,
+enum Form {
+    Sides(Sides),
+    Mesh(Arc<Mesh>),
 }
 
 fn finite(what: &str, i: usize, v: &Vec3) -> Result<()> {
@@ -92,53 +112,12 @@ impl Wall {
     pub fn new(setup: &WallSetup, i: usize) -> Result<Wall> {
         setup.motion.check(i)?;
         let origin = setup.motion.origin();
-        let mut sides = Sides { planes: Vec::new(), round: None };
-        match &setup.shape {
-            WallShape::Plane { normal, offset } => {
-                let n = direction("normal", i, normal)?;
-                if !offset.is_finite() {
-                    return Err(Error::NotFinite(format!("wall {i} has the offset {offset}")));
-                }
-                sides.planes.push((n, offset - n.dot(&origin)));
+        let form = match &setup.shape {
+            WallShape::Mesh { vertices, triangles } => {
+                Form::Mesh(Arc::new(Mesh::new(vertices, triangles, &origin, i)?))
             }
-            WallShape::Box { lo, hi } => {
-                finite("corner", i, lo)?;
-                finite("corner", i, hi)?;
-                for k in 0..3 {
-                    if hi[k] <= lo[k] {
-                        return Err(Error::InvalidArgument(format!(
-                            "wall {i} is a box from {} to {} along axis {k}",
-                            figure(lo[k]),
-                            figure(hi[k])
-                        )));
-                    }
-                    let n = Vec3::ith(k, 1.0);
-                    sides.planes.push((n, lo[k] - origin[k]));
-                    sides.planes.push((-n, origin[k] - hi[k]));
-                }
-            }
-            WallShape::Cylinder { center, axis, radius, length } => {
-                finite("centre", i, center)?;
-                let axis = direction("axis", i, axis)?;
-                for (what, v) in [("radius", Some(*radius)), ("length", *length)] {
-                    if let Some(v) = v
-                        && !(v.is_finite() && v > 0.0)
-                    {
-                        let v = figure(v);
-                        return Err(Error::InvalidArgument(format!(
-                            "wall {i} has a {what} of {v}, not a number above 0"
-                        )));
-                    }
-                }
-                let middle = center - origin;
-                if let Some(length) = length {
-                    for n in [axis, -axis] {
-                        sides.planes.push((n, n.dot(&middle) - 0.5 * length));
-                    }
-                }
-                sides.round = Some((middle, axis, *radius));
-            }
-        }
+            shape => Form::Sides(Sides::new(shape, &origin, i)?),
+        };
         let at = Kin {
             x: origin,
             r: Matrix3::identity(),
@@ -147,9 +126,9 @@ impl Wall {
             vh: Vec3::zeros(),
             wh: Vec3::zeros(),
         };
-        let turning = setup.motion.turns();
+        let turning = setup.motion.turns() && matches!(form, Form::Sides(_));
         let mut wall = Wall {
-            sides,
+            form,
             material: setup.material,
             motion: setup.motion.clone(),
             kin: at,
@@ -161,24 +140,41 @@ impl Wall {
         Ok(wall)
     }
 
-    /// Moves to where it is at `time`, `dt` after the last.
-    pub fn to(&mut self, time: f64, dt: f64) {
-        if matches!(self.motion, WallMotion::Still) {
-            return;
+    /// Whether it moves.
+    pub fn moves(&self) -> bool {
+        !matches!(self.motion, WallMotion::Still)
+    }
+
+    /// Moves to where it is at `time`, `dt` after the last; `false` for a wall that stays.
+    pub fn to(&mut self, time: f64, dt: f64) -> bool {
+        if !self.moves() {
+            return false;
         }
-        let before = self.kin.x;
+        let (before, turn) = (self.kin.x, self.kin.r);
         self.motion.place(time, dt, &mut self.kin);
-        self.stride = (self.kin.x - before).norm();
+        let mut stride = (self.kin.x - before).norm();
+        if let Form::Mesh(mesh) = &self.form {
+            stride += (self.kin.r - turn).norm() * std::f64::consts::FRAC_1_SQRT_2 * mesh.reach();
+        }
+        self.stride = stride * (1.0 + 1e-12);
         self.moved += self.stride;
+        true
     }
 
     /// Radius of the narrowest part: spheres must be smaller.
     pub fn narrowest(&self) -> Option<f64> {
-        self.sides.round.map(|r| r.2)
+        match &self.form {
+            Form::Sides(s) => s.narrowest(),
+            Form::Mesh(_) => None,
+        }
     }
 
     pub fn bytes(&self) -> u64 {
-        (size_of::<Wall>() + self.sides.planes.capacity() * 32) as u64
+        size_of::<Wall>() as u64
+            + match &self.form {
+                Form::Sides(s) => s.bytes(),
+                Form::Mesh(m) => m.bytes(),
+            }
     }
 }
 
@@ -187,74 +183,43 @@ impl Surface for Wall {
         self.turning
     }
 
+    fn parts(&self) -> bool {
+        matches!(self.form, Form::Mesh(_))
+    }
+
     fn far(&self, center: &Vec3, radius: f64) -> f64 {
-        let planes = self.sides.planes.iter().map(|(n, d)| n.dot(center) - d);
-        let mut least = planes.fold(f64::MAX, f64::min);
-        if let Some((middle, axis, r)) = &self.sides.round {
-            let d = center - middle;
-            least = least.min(r - (d - axis * d.dot(axis)).norm());
+        match &self.form {
+            Form::Sides(s) => s.far(center, radius),
+            Form::Mesh(m) => m.far(center, radius),
         }
-        least - radius
     }
 
     fn search(
         &self,
         body: &Template,
-        (shift, turn): (&Vec3, &Matrix3<f64>),
+        place: (&Vec3, &Matrix3<f64>),
         reach: f64,
         stack: &mut Vec<[u32; 2]>,
         found: &mut Vec<Near>,
-    ) {
-        let spheres = body.spheres();
-        for (a, (n, d)) in self.sides.planes.iter().enumerate() {
-            // The plane in the frame of the body.
-            let (m, e) = (turn.tr_mul(n), d - n.dot(shift));
-            let gap = |c: &Vec3, r: f64| m.dot(c) - e - r;
-            body.tree().each(
-                stack,
-                |c, r| gap(c, r) < reach,
-                |b| {
-                    let s = &spheres[b as usize];
-                    let gap = gap(&s.center, s.radius);
-                    if gap < reach {
-                        found.push(Near { a: a as u32, b, gap });
-                    }
-                },
-            );
+    ) -> u64 {
+        match &self.form {
+            Form::Sides(s) => s.search(body, place, reach, stack, found),
+            Form::Mesh(m) => m.search(body, place, reach, stack, found),
         }
-        if let Some((middle, axis, radius)) = &self.sides.round {
-            let gap = |c: &Vec3, r: f64| {
-                let d = turn * c + shift - middle;
-                radius - r - (d - axis * d.dot(axis)).norm()
-            };
-            body.tree().each(
-                stack,
-                |c, r| gap(c, r) < reach,
-                |b| {
-                    let s = &spheres[b as usize];
-                    let gap = gap(&s.center, s.radius);
-                    if gap < reach {
-                        found.push(Near { a: self.sides.planes.len() as u32, b, gap });
-                    }
-                },
-            );
+    }
+
+    fn gap(&self, a: u32, center: &Vec3, radius: f64) -> f64 {
+        match &self.form {
+            Form::Sides(s) => s.gap(a, center, radius),
+            Form::Mesh(m) => m.gap(a, center, radius),
         }
     }
 
     #[inline(always)]
     fn meet(&self, a: u32, center: &Vec3, radius: f64) -> Option<Meeting> {
-        let (normal, distance) = match (self.sides.planes.get(a as usize), &self.sides.round) {
-            (Some((n, d)), _) => (*n, n.dot(center) - d),
-            (None, Some((middle, axis, r))) => {
-                let d = center - middle;
-                let out = d - axis * d.dot(axis);
-                let rho = out.norm();
-                // On the axis nothing is near: any direction serves.
-                (if rho > 0.0 { out / -rho } else { Vec3::zeros() }, r - rho)
-            }
-            (None, None) => return None,
-        };
-        let gap = distance - radius;
-        Some(Meeting { normal, gap, radius, point: center - normal * (radius + 0.5 * gap) })
+        match &self.form {
+            Form::Sides(s) => s.meet(a, center, radius),
+            Form::Mesh(m) => m.meet(a, center, radius),
+        }
     }
 }
