@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs one program of the field in a process of its own.
 
-usage: peer.py mss|clump-eu|clump-fav|clump-fm MESH N OUT.json
+usage: peer.py mss|clump-eu|clump-fav|clump-fm MESH N OUT.json [DIV RMIN]
 
 Needs the PyPI packages `multisphere` (mss) and `clump-python` (the others), which are GPL-3: they are run,
 never linked or copied. Writes the spheres in the mesh's frame and the seconds of CPU of loading and making,
@@ -22,6 +22,7 @@ def cpu():
 
 
 peer, mesh, n, out = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4]
+div, rmin = (int(sys.argv[5]), float(sys.argv[6])) if len(sys.argv) > 6 else (100, 0)
 with contextlib.redirect_stdout(io.StringIO()):
     if peer == "mss":
         import multisphere
@@ -37,7 +38,7 @@ with contextlib.redirect_stdout(io.StringIO()):
         start = cpu()
         if peer == "clump-eu":
             # It works in a frame about the middle of the box.
-            _, made = CLUMP.GenerateClump_Euclidean_3D(mesh, n, 0, 100, 0.95)
+            _, made = CLUMP.GenerateClump_Euclidean_3D(mesh, n, rmin, div, 0.95)
             shift = bounds.mean(0)
         elif peer == "clump-fav":
             _, made = CLUMP.GenerateClump_Favier(mesh, n, chooseDistance="min")

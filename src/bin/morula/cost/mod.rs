@@ -8,13 +8,15 @@ mod table;
 
 use crate::compare::entry::Entry;
 use crate::fail::{About as _, Done, Fail};
-use crate::input::parse::{not_negative, positive, whole};
+use crate::input::parse::{not_negative, numbers, positive, whole};
 use crate::input::{self, Fineness, Reading};
 use crate::progress::Bar;
 use crate::write;
 use clap::ValueEnum;
 use list::{Line, List};
-use morula::cost::{Bounds, Choice, CurveOptions, Goal, SweepOptions, choose, ladder, sweep};
+use morula::cost::{
+    Bounds, Choice, CurveOptions, Goal, StepModel, SweepOptions, choose, ladder, sweep,
+};
 use morula::generate::{Effort, Levels};
 use morula::mass::{Contact, ContactOptions};
 use morula::solid::{Resolution, Solid};
@@ -126,6 +128,10 @@ struct Contacts {
     /// Poisson's ratio
     #[arg(long, value_name = "NU", default_value_t = 0.3, value_parser = not_negative)]
     poisson: f64,
+    /// Cost of a step with n spheres over one with single spheres, a + b n + c n² + (d n + e n²) / K,
+    /// K steps from one list of neighbours to the next [default: fitted to LAMMPS]
+    #[arg(long, value_name = "a,b,c,d,e,K", value_parser = numbers::<6>)]
+    step_model: Option<[f64; 6]>,
     /// Greatest speed at which two particles meet
     #[arg(long, value_name = "V", default_value_t = 1.0, value_parser = not_negative)]
     speed: f64,
@@ -256,6 +262,9 @@ impl Args {
             ..CurveOptions::default()
         };
         curve.quality.columns = self.columns;
+        if let Some([a, b, c, d, e, rebuild]) = c.step_model {
+            curve.step = StepModel { step: [a, b, c], lists: [d, e], rebuild };
+        }
         let method = |e: &Entry| {
             let o = e.options(1);
             (o.method, o.effort)

@@ -1,0 +1,421 @@
+#!/usr/bin/env python3
+"""What accuracy costs in time, over the papers' shapes and real particles: writes docs/cost.md.
+
+usage: cost.py MORULA [--no-peers] [--out docs/cost] [--keep FOLDER] [--parts NAME,…]
+
+--keep FOLDER: parts that were made are kept there and not made again; --parts makes only these.
+
+Without MORULA_DATA the built-in particles are all there is. With MORULA_PEER_PYTHON, an interpreter that has the
+packages `multisphere` and `clump-python`, those run in the same session on the same meshes (scripts/peer.py), CLUMP
+with the parameters of Buchele et al. 2026, table 1. Times of others are processor seconds without imports, ours those
+of `morula compare --threads 1`. Writes OUT.md, OUT_mean.svg and, with chromium, OUT.png; what is missing is named.
+"""
+import contextlib, io, json, math, os, pathlib, shutil, statistics, subprocess, sys, tempfile
+
+HERE = pathlib.Path(__file__).resolve().parent
+morula = os.path.abspath(sys.argv[1])
+out = sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "docs/cost"
+peers = os.environ.get("MORULA_PEER_PYTHON") if "--no-peers" not in sys.argv else None
+data = os.environ.get("MORULA_DATA")
+root = pathlib.Path(data) if data else None
+scratch = tempfile.TemporaryDirectory()
+work = pathlib.Path(scratch.name)
+COUNTS = (1, 2, 3, 5, 10, 20, 30, 50, 100)
+PEER_SECONDS = 240
+text, missing = [], []
+# As fitted, with the steps between two lists.
+MODEL = None
+
+
+def note(words):
+    missing.append(words)
+    print(f"cost: {words}", file=sys.stderr, flush=True)
+
+
+def run(*words, seconds=1200):
+    done = subprocess.run([str(w) for w in (morula, *words)], capture_output=True, text=True, timeout=seconds)
+    if done.returncode:
+        raise RuntimeError(done.stderr.strip())
+    return done.stdout
+
+
+def say(*lines):
+    text.extend(lines)
+
+
+def table(head, rows, right=1):
+    say("| " + " | ".join(head) + " |", "| " + " | ".join(["---"] * right + ["---:"] * (len(head) - right)) + " |")
+    for r in rows:
+        say("| " + " | ".join(str(c) for c in r) + " |")
+    say("")
+
+
+def price(shape, methods, counts=COUNTS, *more):
+    if MODEL:
+        more = (*more, "--step-model", ",".join(f"{v:.6g}" for v in MODEL))
+    found = json.loads(run("cost", shape, "--counts", ",".join(map(str, counts)), "--methods", ",".join(methods),
+                           "--threads", 1, "--no-files", "--json", "-q", *more))
+    return {line["name"]: line for line in found["lines"]}
+
+
+def stl(shape):
+    """A shape as a mesh that other programs read."""
+    if not str(shape).startswith("sample:") and pathlib.Path(shape).suffix == ".stl":
+        return shape
+    to = work / (pathlib.Path(str(shape)).stem.replace(":", "_").replace(",", "_") + ".stl")
+    if str(shape).startswith("sample:"):
+        run("sample", str(shape)[7:], "-q", "-o", to)
+    else:
+        import trimesh  # of the peers' interpreter
+        trimesh.load_mesh(shape).export(to)
+    return to
+
+
+def label(shape):
+    return str(shape).replace("sample:", "") if str(shape).startswith("sample:") else pathlib.Path(shape).stem
+
+
+def bodies():
+    """The shapes of the papers and some others."""
+    all_of = ["sample:mandm", "sample:tablet", "sample:stone,seed=7"]
+    if root:
+        names = ("ellipsoid", "femur", "bunny", "octahedron", "torus")
+        all_of = [root / "benchmark" / f"{n}.stl" for n in names] + all_of
+    else:
+        all_of = ["sample:ellipsoid", "sample:torus", "sample:box"] + all_of
+        note("MORULA_DATA is not set: built-in particles only")
+    return all_of
+
+
+def particles():
+    if not root:
+        return [f"sample:stone,seed={k}" for k in range(1, 9)]
+    found = [p for p in (root / "particles").rglob("*") if p.suffix in (".stl", ".obj", ".ply", ".off")]
+    return sorted(found, key=str)
+
+
+# ---- parts ----
+
+def hardware():
+    cpu = next((l.split(":", 1)[1].strip() for l in open("/proc/cpuinfo") if "model name" in l), "?")
+    load = os.getloadavg()[0]
+    say("# What accuracy costs in time", "",
+        "Made by `sh scripts/figures.sh` (its part `scripts/cost.py`), with `MORULA_DATA` naming the meshes and",
+        f"`MORULA_PEER_PYTHON` the interpreter of the other programs. {cpu}, {os.cpu_count()} cores, load {load:.1f} when",
+        "it began: read times as ratios. One thread each.", "",
+        "```sh", "morula cost stone.stl -n 100 -o stone        # the table, stone.csv, stone.svg, stone.html",
+        "morula cost stone.stl --goal spheres --max-mismatch 0.05 --no-files",
+        "morula cost stone.stl --goal mismatch --max-step-cost 50 --max-seconds 0.1 --no-files", "```", "",
+        "From C: `morula_cost_curve`, `_copy`, `_clump`, `_choose`; in Rust `cost::{curve, choose, sweep}`.", "",
+        "![The page of a stone](cost.png)", "")
+
+
+def fitted():
+    """What the fit tells; sets the model."""
+    global MODEL
+    sys.path.insert(0, str(HERE))
+    import step_cost
+    told = io.StringIO()
+    with contextlib.redirect_stdout(told):
+        MODEL = (*step_cost.fit(), step_cost.REBUILD)
+    return told.getvalue()
+
+
+def model():
+    told = fitted()
+    a, b, c, d, e, _ = MODEL
+    first = open(HERE / "step_cost.csv").readline().lstrip("# ").strip()
+    say("## The cost of a step", "",
+        "What a solver pays for a step with clumps of n spheres, over one with as many single spheres of the same volume:",
+        "", f"    {a:.3g} + {b:.3g} n + {c:.3g} n² + ({d:.3g} n + {e:.3g} n²) / K        and 1 for n = 1", "",
+        "with lists of neighbours made anew every K = 50 steps. Fitted by `scripts/step_cost.py` to LAMMPS: stones of the",
+        "same places and turns at a solid fraction of 0.5, `gran/hooke/history`, `fix rigid/small` with our templates,",
+        f"skin 0.1 d_eq ({first}). Two neighbours have n² pairs of spheres; the lists hold those within the skin,",
+        "and the smaller the spheres the more these are: beyond a few dozen spheres a step costs more than n times",
+        "as much. A clump also allows a shorter step (`time step` below, over that of a sphere of the same mass, one spring):",
+        "what simulated time costs is the quotient. In brackets: contacts and the rest + lists.", "")
+    for line in told.splitlines()[1:]:
+        say(line.replace("|n|", "| n |") if line.startswith("|n|") else line)
+    say("")
+
+
+def knee(line):
+    return line["points"][line["choice"]]["n"] if line["choice"] is not None else "–"
+
+
+def where(points):
+    """The last number up to which each doubling of the spheres takes a fifth off D, and what D is there."""
+    last = points[0]
+    for before, after in zip(points, points[1:]):
+        doublings = math.log2(after["n"] / before["n"]) if after["n"] > before["n"] else 0
+        if doublings and (before["D"] / max(after["D"], 1e-9)) ** (1 / doublings) >= 1.25:
+            last = after
+        else:
+            break
+    return last
+
+
+def lists():
+    say("## Price lists", "",
+        "Method `best`. *time*: from a mesh that is read, with the distance field; *inertia*: error of the inertia that",
+        "is left with corrected masses; *step*, *simulated time*: over single spheres.", "")
+    fitted()
+    paying = []
+    for shape in bodies():
+        try:
+            found = price(shape, ["best", "best-draft"])
+        except (RuntimeError, subprocess.TimeoutExpired) as e:
+            note(f"{label(shape)}: {e}")
+            continue
+        points = found["best"]["points"]
+        rows = [(p["n"], f"{p['D']:.4f}", f"{100 * p['coverage']:.1f}", f"{100 * p['overshoot']:.1f}",
+                 f"{100 * p['surface_deq']:.2f}", f"{math.degrees(p['roughness_rad']):.1f}",
+                 f"{100 * p['inertia']:.2g}", f"{1e3 * p['seconds']:.0f}", f"{p['step_factor']:.2f}",
+                 f"{p['step_cost']:.3g}", f"{p['time_cost']:.3g}") for p in points]
+        say(f"### {label(shape)}", "")
+        table(("n", "D", "coverage %", "overshoot %", "surface % d_eq", "roughness °", "inertia %", "time ms",
+               "time step", "step", "simulated time"), rows, 0)
+        stop = where(points)
+        cut = (points[-1]["D"] / stop["D"]) if stop["D"] else 1
+        paying.append((label(shape), stop["n"], f"{stop['D']:.4f}", f"{stop['step_cost']:.3g}", knee(found["best"]),
+                       f"{points[-1]['D']:.4f}", f"{cut:.2f}"))
+        print(f"cost: {label(shape)} done", file=sys.stderr, flush=True)
+    return paying
+
+
+def words(paying):
+    say("## Where more spheres stop paying", "",
+        "*pays to*: the last n of the list up to which each doubling of the spheres still takes a fifth or more off D;",
+        "*knee*: what `morula cost` chooses on its own, by D against the cost of a step (the last n where the curve has no",
+        "knee).", "")
+    table(("body", "pays to n", "D there", "step there", "knee", "D at the last n", "of D there"), paying)
+    flat = [p[0] for p in paying if isinstance(p[1], int) and p[1] <= 30]
+    steep = [p[0] for p in paying if isinstance(p[1], int) and p[1] >= 100]
+    middle = [p[0] for p in paying if p[0] not in flat and p[0] not in steep]
+    if flat:
+        say(f"For {', '.join(flat)} 30 spheres or fewer are the end of it: what is left is smaller than the mesh's own",
+            "error or lies in what spheres cannot show, and more spheres only make steps dearer.")
+    if middle:
+        say(f"For {', '.join(middle)} the gain flattens between 30 and 100.")
+    if steep:
+        say(f"For {', '.join(steep)} each doubling goes on taking a fifth or more off D up to 100 spheres; there the cost of a",
+            "step, which grows faster than n, is what ends it, not the shape.")
+    say("")
+
+
+def routes():
+    say("## Levels that are free, chained or nested", "",
+        "One solid and one distance field serve all. Free levels are what single calls give; chained ones start from the one",
+        "before; nested ones hold all spheres of the one before. D of the levels, and seconds of all together.", "")
+    rows = []
+    for shape in bodies()[:4] + ["sample:stone,seed=7"]:
+        for levels in ("free", "chained", "nested"):
+            try:
+                line = price(shape, ["best"], (3, 10, 30, 100), "--levels", levels)["best"]
+            except (RuntimeError, subprocess.TimeoutExpired) as e:
+                note(f"{label(shape)}, {levels}: {e}")
+                continue
+            points = line["points"]
+            rows.append((label(shape), levels, *(f"{p['D']:.4f}" for p in points), f"{points[-1]['seconds_so_far']:.2f}"))
+    table(("body", "levels", "n = 3", "10", "30", "100", "s for all"), rows, 2)
+
+
+MEAN_COUNTS = (1, 3, 10, 30, 100)
+
+
+def mean():
+    names = ("best", "best-draft", "inscribed", "mss")
+    found = {n: [] for n in names}
+    used = 0
+    for shape in particles():
+        try:
+            lines = price(shape, names, MEAN_COUNTS, "--bodies", "largest") if root else price(shape, names, MEAN_COUNTS)
+        except (RuntimeError, subprocess.TimeoutExpired) as e:
+            note(f"{label(shape)}: {e}")
+            continue
+        used += 1
+        for n, line in lines.items():
+            found[n].append({p["asked"]: p for p in line["points"]})
+    say(f"## The mean over {used} real particles", "",
+        "After figure 11 of Buchele et al. 2026 (there 402 grains of the Sand Atlas, here those of the data folder): mean of D",
+        "and its standard deviation; in brackets the mean time over that of `mss` at the smallest n.", "",
+        "![Mean mismatch against the number of spheres](cost_mean.svg)", "")
+    least = statistics.mean(c[MEAN_COUNTS[0]]["seconds"] for c in found["mss"] if MEAN_COUNTS[0] in c)
+    rows, curves = [], {}
+    for n in names:
+        row, curve = [n], []
+        for k in MEAN_COUNTS:
+            ds = [c[k]["D"] for c in found[n] if k in c]
+            ts = [c[k]["seconds"] for c in found[n] if k in c]
+            if len(ds) < 2:
+                row.append("–")
+                continue
+            m, s = statistics.mean(ds), statistics.stdev(ds)
+            row.append(f"{m:.4f} ± {s:.4f} ({statistics.mean(ts) / least:.1f})")
+            curve.append((k, m, s))
+        rows.append(row)
+        curves[n] = curve
+    table(("method", *(f"n = {k}" for k in MEAN_COUNTS)), rows)
+    errors = []
+    for k in MEAN_COUNTS:
+        some = [c[k] for c in found["best"] if k in c]
+        rms = lambda key: math.sqrt(statistics.mean(p[key] ** 2 for p in some)) if some else 0
+        errors.append((k, f"{100 * rms('union_inertia'):.2f}", f"{100 * rms('inertia'):.2g}"))
+    say("After figure 7 of Price et al. 2007: RMS error of the inertia of `best` over the same particles, of the union of the",
+        "spheres and with corrected masses, in per cent. (Figure 7 by the method of that paper stands in",
+        "[surface_fit.md](surface_fit.md), figures 6 and 9 and table 2 of Yuan 2019 in [cover.md](cover.md).)", "")
+    table(("n", "union", "corrected masses"), errors, 0)
+    picture(curves, used)
+
+
+COLOURS = {"best": "#1f5fa0", "best-draft": "#e67e22", "inscribed": "#008c78", "mss": "#6e6e6e"}
+
+
+def picture(curves, used):
+    w, h, left, right, top, bottom = 860, 420, 70, 150, 30, 56
+    ds = [d for c in curves.values() for _, m, s in c for d in (m + s, max(m - s, m / 3))]
+    low, high = min(ds) * 0.9, max(ds) * 1.1
+    x = lambda n: left + (w - left - right) * math.log10(n) / 2
+    y = lambda d: h - bottom - (h - top - bottom) * math.log(max(d, low) / low) / math.log(high / low)
+    svg = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {w} {h}" font-family="sans-serif" font-size="14">',
+           f'<rect width="{w}" height="{h}" fill="#fff"/>']
+    for n in (1, 2, 5, 10, 20, 50, 100):
+        svg.append(f'<line x1="{x(n):.1f}" x2="{x(n):.1f}" y1="{top}" y2="{h - bottom}" stroke="#e6e6e6"/>'
+                   f'<text x="{x(n):.1f}" y="{h - bottom + 19}" text-anchor="middle" fill="#5f646e">{n}</text>')
+    for d in (.002, .005, .01, .02, .05, .1, .2, .5):
+        if low <= d <= high:
+            svg.append(f'<line x1="{left}" x2="{w - right}" y1="{y(d):.1f}" y2="{y(d):.1f}" stroke="#e6e6e6"/>'
+                       f'<text x="{left - 8}" y="{y(d) + 5:.1f}" text-anchor="end" fill="#5f646e">{d:g}</text>')
+    for name, c in curves.items():
+        band = [f"{x(n):.1f} {y(m + s):.1f}" for n, m, s in c] + [f"{x(n):.1f} {y(max(m - s, m / 3)):.1f}" for n, m, s in reversed(c)]
+        svg.append(f'<path d="M{"L".join(band)}Z" fill="{COLOURS[name]}" opacity="0.12"/>')
+    for name, c in curves.items():
+        svg.append(f'<path d="M{"L".join(f"{x(n):.1f} {y(m):.1f}" for n, m, _ in c)}" fill="none" stroke="{COLOURS[name]}" stroke-width="2.5"/>')
+        svg += [f'<circle cx="{x(n):.1f}" cy="{y(m):.1f}" r="4" fill="{COLOURS[name]}"/>' for n, m, _ in c]
+        if c:
+            svg.append(f'<text x="{x(c[-1][0]) + 12:.1f}" y="{y(c[-1][1]) + 5:.1f}" fill="{COLOURS[name]}">{name}</text>')
+    svg.append(f'<text x="{(left + w - right) / 2}" y="{h - 12}" text-anchor="middle">spheres</text>'
+               f'<text x="18" y="{(top + h - bottom) / 2}" text-anchor="middle" transform="rotate(-90 18 {(top + h - bottom) / 2})">mismatch D</text>'
+               f'<text x="{left}" y="20">mean over {used} real particles, band: standard deviation</text></svg>')
+    pathlib.Path(out + "_mean.svg").write_text("\n".join(svg) + "\n")
+
+
+# Peer, shape, n, and for CLUMP div and rMin of table 1 (None: swept).
+def cells():
+    if not root:
+        return
+    bench, real = root / "benchmark", root / "particles"
+    for shape, n, div, rmin in ((bench / "ellipsoid.stl", 10, 100, .25), (bench / "femur.stl", 70, 150, 4),
+                                (real / "stone" / "stone_S02.stl", 30, 100, None),
+                                (real / "cement" / "ma160_01731_equant.stl", 30, 100, None)):
+        yield shape, n, div, rmin
+
+
+def judged(spheres, shape):
+    path = work / "theirs.csv"
+    with open(path, "w") as f:
+        f.write("x,y,z,r\n" + "".join(",".join(f"{v:.17g}" for v in s) + "\n" for s in spheres))
+    found = json.loads(run("measure", path, "--target", shape, "--json", "-q"))
+    return found["D"]
+
+
+def theirs(kind, mesh, n, *more):
+    path = work / "peer.json"
+    path.unlink(missing_ok=True)
+    done = subprocess.run([peers, str(HERE / "peer.py"), kind, str(mesh), str(n), str(path), *map(str, more)],
+                          capture_output=True, text=True, timeout=PEER_SECONDS)
+    if done.returncode or not path.exists():
+        raise RuntimeError((done.stderr.strip() or "no result").splitlines()[-1][:120])
+    return json.loads(path.read_text())
+
+
+def beside():
+    say("## Ours and theirs, at equal n and at equal time", "",
+        "Same meshes, same run, one thread, processor seconds. `multisphere` (div 100) and CLUMP, Euclidean 3D, overlap",
+        "0.95, with div and rMin of Buchele et al. 2026, table 1: ellipsoid 100 and 0.25, femur 150 and 4; for particles,",
+        "where the table has 'varying', rMin 0, 2 and 5 % of the shortest edge at div 100, and the best of them. D by our exact columns for all.",
+        "*equal time*: the least D of ours (`best`, draft, normal or thorough) within their time; *same D*: the fewest of our",
+        "spheres that are as good, and their time.", "")
+    rows = []
+    for shape, n, div, rmin in cells():
+        if not pathlib.Path(shape).exists():
+            note(f"{shape} is missing")
+            continue
+        ours = json.loads(run("compare", shape, "-n", n, "--methods", "best-draft,best,best-thorough", "--threads", 1,
+                              "--no-picture", "--json", "-q"))["clumps"]
+        ours = [(c["method"], c["D"], c["cpu_seconds"] or c["wall_seconds"]) for c in ours if c["error"] is None]
+        curve = price(shape, ["best"], (2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100))["best"]["points"]
+        box = json.loads(run("info", shape, "--json"))
+        shortest = min(b - a for a, b in zip(box["report"]["box_min"], box["report"]["box_max"]))
+        runs = {"multisphere": [("mss",)]}
+        radii = [rmin] if rmin is not None else [0, .02 * shortest, .05 * shortest]
+        runs["CLUMP"] = [("clump-eu", div, r) for r in radii]
+        for name, ways in runs.items():
+            best = None
+            for kind, *more in ways:
+                try:
+                    got = theirs(kind, stl(shape), n, *more)
+                    d = judged(got["spheres"], shape)
+                except (RuntimeError, subprocess.TimeoutExpired) as e:
+                    note(f"{name} on {label(shape)}, n = {n}: {type(e).__name__} {str(e)[-160:]}")
+                    continue
+                if best is None or d < best[0]:
+                    best = (d, got["cpu"], len(got["spheres"]))
+            if best is None:
+                rows.append((label(shape), n, name, "failed", "", "", "", ""))
+                continue
+            d, cpu, made = best
+            normal = next(o for o in ours if o[0] == "best")
+            within = [o for o in ours if o[2] <= cpu]
+            equal = min(within, key=lambda o: o[1]) if within else None
+            same = next((p for p in curve if p["D"] <= d), None)
+            rows.append((label(shape), n, name + ("" if made == n else f" [{made}]"), f"{d:.4f} / {cpu:.2f} s",
+                         f"{normal[1]:.4f} / {normal[2]:.2f} s",
+                         f"{equal[1]:.4f} / {equal[2]:.2f} s" if equal else "–",
+                         f"{same['n']}, {same['seconds']:.2f} s" if same else "–", f"{d / normal[1]:.1f}"))
+            print(f"cost: {rows[-1]}", file=sys.stderr, flush=True)
+    table(("body", "n", "program", "theirs: D / CPU", "ours, equal n", "ours, equal time", "same D with n", "D over ours"),
+          rows, 3)
+    say("[k]: only k spheres came.", "")
+
+
+def page():
+    chromium = shutil.which("chromium")
+    name = work / "page"
+    fitted()
+    run("cost", "sample:stone,seed=7", "-n", 100, "--step-model", ",".join(f"{v:.6g}" for v in MODEL), "-o", name, "-q", "--threads", 0)
+    if not chromium:
+        note("no chromium: the screenshot stays as it is")
+        return
+    subprocess.run([chromium, "--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
+                    "--enable-unsafe-swiftshader", "--hide-scrollbars", "--window-size=1280,800",
+                    "--virtual-time-budget=8000", f"--screenshot={os.path.abspath(out)}.png", f"file://{name}.html"],
+                   check=True, capture_output=True, timeout=300)
+
+
+def others():
+    if peers and root:
+        beside()
+    else:
+        note("others' programs were not run: MORULA_PEER_PYTHON and MORULA_DATA name them and their meshes")
+
+
+PARTS = dict(head=hardware, mean=mean, others=others, model=model, lists=lambda: words(lists()), levels=routes, page=page)
+option = lambda name: sys.argv[sys.argv.index(name) + 1] if name in sys.argv else None
+keep = pathlib.Path(option("--keep") or work)
+keep.mkdir(parents=True, exist_ok=True)
+wanted = (option("--parts") or ",".join(PARTS)).split(",")
+for name in wanted:
+    kept = keep / f"{name}.json"
+    if not kept.exists():
+        text, missing = [], []
+        PARTS[name]()
+        kept.write_text(json.dumps([text, missing]))
+if set(wanted) == set(PARTS):
+    text, missing = [], []
+    for name in PARTS:
+        a, b = json.loads((keep / f"{name}.json").read_text())
+        text, missing = text + a, missing + b
+    if missing:
+        text += ["## Left out", "", *(f"- {m}" for m in missing), ""]
+    pathlib.Path(out + ".md").write_text("\n".join(text).rstrip() + "\n")
