@@ -2,7 +2,7 @@
 #![cfg(feature = "dem")]
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use morula::dem::scene::{Over, Place, Scene, Sink, build, parse, play};
+use morula::dem::scene::{Over, Place, Scene, Sink, build, parse, play, rows_before};
 use morula::{Error, Result, Run};
 use std::path::Path;
 
@@ -46,6 +46,7 @@ fn scene(text: &str, set: &[(&str, &str)]) -> Result<Scene> {
 struct Kept {
     rows: Vec<Vec<Option<f64>>>,
     frames: Vec<(u64, String)>,
+    checkpoints: Vec<(u64, Vec<u8>)>,
     stop: Option<u64>,
 }
 
@@ -56,6 +57,10 @@ impl Sink for Kept {
     }
     fn frame(&mut self, number: u64, vtp: &str) -> Result<()> {
         self.frames.push((number, vtp.to_owned()));
+        Ok(())
+    }
+    fn checkpoint(&mut self, steps: u64, bytes: &[u8]) -> Result<()> {
+        self.checkpoints.push((steps, bytes.to_vec()));
         Ok(())
     }
     fn at(&mut self, place: &Place) -> bool {
@@ -106,15 +111,19 @@ fn what_cannot_be_is_told() {
         assert!(e.to_string().contains(words), "{path} = {value}: {e}");
     };
     says("effects.gravity", "[0, 0, 0]", "effects.gravity can do nothing: it is 0");
-    says("effects.tangential", "mindlin", "the friction of steel and steel is not told");
-    says("materials.steel.friction", "0.3", "friction, but the scene names no tangential law");
+    says("effects.tangential", "mindlin", "a tangential law needs a friction, and there is none");
+    says(
+        "materials.steel.friction",
+        "0.3",
+        "a friction of 0.3 does nothing without a tangential law",
+    );
     says("effects.averaging", "true", "effects.averaging can do nothing");
-    says("effects.cohesion", "linear", "cohesion of steel and steel is not told");
-    says("effects.normal", "hertz", "a stiffness, but the scene names no linear law");
-    says("materials.steel.restitution", "1.5", "restitution of the material steel is 1.5");
-    says("materials.steel.restitution", "-0.1", "restitution of the material steel is -0.1");
+    says("effects.cohesion", "linear", "needs a cohesion, and there is none");
+    says("effects.normal", "hertz", "does nothing without a linear law");
+    says("materials.steel.restitution", "1.5", "the restitution is 1.5, above 1");
+    says("materials.steel.restitution", "-0.1", "the restitution is -0.1");
     says("materials.steel.restitution", "1", "effects.damping can do nothing");
-    says("materials.steel.stiffness", "0", "stiffness of steel and steel is 0");
+    says("materials.steel.stiffness", "0", "the stiffness is 0");
     says("run.step", "0", "time step is 0");
     says("run.step", "1", "beyond what the clumps allow");
     says("run.end", "nan", "run.end is NaN");
@@ -161,4 +170,110 @@ fn the_scenes_of_the_project_are_sound() {
         seen += 1;
     }
     assert!(seen >= 2);
+}
+
+const BED: &str = r#"
+[run]
+end = 0.03
+seed = 5
+speed = 0.5
+[effects]
+gravity = [0, 0, -9.81]
+normal = "hertz"
+damping = "contact"
+tangential = "mindlin"
+averaging = true
+drag = { viscosity = 1e-3 }
+[materials.sweet]
+young = 1e6
+poisson = 0.29
+restitution = 0.5
+friction = 0.35
+[materials.glass]
+young = 1e6
+poisson = 0.29
+restitution = 0.5
+friction = 0.3
+[[pairs]]
+between = ["sweet", "glass"]
+friction = 0.3
+[templates.sweet]
+shape = "box"
+set = { a = 0.01, b = 0.008, c = 0.005 }
+spheres = 6
+effort = "draft"
+cells = 24
+density = 1377
+material = "sweet"
+[[walls]]
+cylinder = { center = [0, 0, 0.05], axis = [0, 0, 1], radius = 0.02, length = 0.1 }
+material = "glass"
+[[walls]]
+mesh = { shape = "box", scale = 0.004 }
+material = "glass"
+[[insertion]]
+templates = ["sweet"]
+cylinder = { center = [0, 0, 0.01], radius = 0.01, height = 0.06 }
+velocity = [0, 0, -0.5]
+total = 12
+at_once = [1, 3]
+every = 2e-3
+[output]
+every = 1e-3
+checkpoint = 4e-3
+measures = ["time", "bodies", "energy", "top", "z:3", "vx:11"]
+"#;
+
+#[test]
+fn a_run_that_goes_on_is_one_that_was_never_stopped() {
+    let whole = |threads: usize| {
+        let mut scene = scene(BED, &[]).unwrap();
+        let mut kept = Kept::default();
+        play(&mut scene, &mut kept, &Run::new(threads).unwrap()).unwrap();
+        (scene, kept)
+    };
+    let (first, kept) = whole(1);
+    assert_eq!(first.engine.state().len(), 12);
+    assert!(kept.rows[0][4].is_none() && kept.rows.last().unwrap().iter().all(Option::is_some));
+    assert!(first.engine.work().calls.tangential > 0 && first.engine.work().drag > 0);
+    let bits = |rows: &[Vec<Option<f64>>]| -> Vec<Option<u64>> {
+        rows.iter().flatten().map(|v| v.map(f64::to_bits)).collect()
+    };
+    let (_, two) = whole(2);
+    assert_eq!(bits(&kept.rows), bits(&two.rows));
+    for (steps, bytes) in &kept.checkpoints[1..4] {
+        let mut again = scene(BED, &[]).unwrap();
+        again.resume(bytes).unwrap();
+        assert_eq!(again.engine.steps(), *steps);
+        let before = rows_before(&again, *steps) as usize;
+        let mut rest = Kept::default();
+        play(&mut again, &mut rest, &Run::serial()).unwrap();
+        assert_eq!(bits(&kept.rows[before..]), bits(&rest.rows));
+        assert_eq!(kept.checkpoints.last(), rest.checkpoints.last());
+    }
+    // Of another scene, and damaged.
+    let (_, bytes) = &kept.checkpoints[1];
+    let e = scene(BALL, &[]).unwrap().resume(bytes).unwrap_err().to_string();
+    assert!(e.contains("material"), "{e}");
+    assert!(scene(BED, &[]).unwrap().resume(&bytes[..bytes.len() - 3]).is_err());
+}
+
+#[test]
+fn insertions_that_cannot_be_are_refused() {
+    let says = |path: &str, value: &str, words: &str| {
+        let Err(e) = scene(BED, &[(path, value)]) else { panic!("{path} = {value} is taken") };
+        assert!(e.to_string().contains(words), "{path} = {value}: {e}");
+    };
+    says("insertion.0.templates", "[\"swet\"]", "insertion 0 is of the template swet");
+    says("insertion.0.every", "0", "insertion 0 comes every 0");
+    says("insertion.0.box", "{ lo = [0, 0, 0], hi = [1, 1, 1] }", "needs one of box and cylinder");
+    says("insertion.0.at_once", "[3, 1]", "does nothing");
+    says("effects.drag", "{ viscosity = 0 }", "a drag without viscosity or density does nothing");
+    says("walls.1.mesh", "{ shape = \"bx\" }", "wall 1: no analytic particle is called");
+    says("output.measures", "[\"z:12\"]", "a body that is not there: 12 are");
+    says(
+        "materials.glass.restitution",
+        "0.7",
+        "materials glass and sweet: they differ in restitution",
+    );
 }

@@ -5,8 +5,9 @@ use crate::input::parse::whole;
 use crate::progress::Bar;
 use crate::write;
 use morula::dem::Engine;
-use morula::dem::scene::{Over, Place, Scene, Sink, build, parse, play};
+use morula::dem::scene::{Over, Place, Scene, Sink, build, parse, play, rows_before};
 use morula::error::count;
+use morula::export::save_in;
 use morula::{Error, Result, Run};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -16,7 +17,8 @@ use std::time::Instant;
 /// Simulates rigid clumps as a scene file says: bodies, walls, and the effects that it names and no
 /// others (docs/scenes.md).
 ///
-/// Into DIR go measures.csv and, where the scene asks for them, frame_000000.vtp and so on for ParaView.
+/// Into DIR go measures.csv, checkpoint.bin and, where the scene asks for them, frame_000000.vtp and so on
+/// for ParaView.
 #[derive(clap::Args)]
 pub struct Args {
     /// Scene file, TOML
@@ -31,6 +33,9 @@ pub struct Args {
     /// Folder to write into; it is made where there is none
     #[arg(short, long, value_name = "DIR")]
     output: Option<String>,
+    /// Go on from DIR/checkpoint.bin: all files become, byte for byte, those of a run that was never stopped
+    #[arg(long, requires = "output")]
+    resume: bool,
     /// Threads; 0: all cores. The result does not depend on it
     #[arg(long, default_value_t = 1, value_parser = whole::<usize>)]
     threads: usize,
@@ -38,6 +43,9 @@ pub struct Args {
     #[arg(short, long)]
     quiet: bool,
 }
+
+/// The newest checkpoint.
+const CHECKPOINT: &str = "checkpoint.bin";
 
 fn pair(text: &str) -> std::result::Result<(String, String), String> {
     match text.split_once('=') {
@@ -61,7 +69,12 @@ pub fn run(args: &Args) -> Done {
             let _ = writeln!(std::io::stderr(), "note: {note}");
         }
     }
-    let mut out = Out::new(args.output.as_deref(), &scene, &bar)?;
+    if let (true, Some(folder)) = (args.resume, &args.output) {
+        let path = Path::new(folder).join(CHECKPOINT);
+        let bytes = std::fs::read(&path).map_err(|e| Fail::file(&path, e))?;
+        scene.resume(&bytes).about(&path.display().to_string())?;
+    }
+    let mut out = Out::new(args, &scene, &bar)?;
     let run = Run::new(args.threads).about("--threads")?;
     let start = Instant::now();
     let over = play(&mut scene, &mut out, &run).about(&args.scene)?;
@@ -80,21 +93,32 @@ struct Out<'a> {
     folder: Option<PathBuf>,
     bar: &'a Bar,
     start: Instant,
+    /// Steps when it began.
+    first: u64,
 }
 
 impl<'a> Out<'a> {
-    fn new(folder: Option<&str>, scene: &Scene, bar: &'a Bar) -> Done<Out<'a>> {
-        let folder = folder.map(PathBuf::from);
+    fn new(args: &Args, scene: &Scene, bar: &'a Bar) -> Done<Out<'a>> {
+        let folder = args.output.as_ref().map(PathBuf::from);
         let mut measures = None;
         if let Some(folder) = &folder {
             std::fs::create_dir_all(folder).map_err(|e| Fail::file(folder, e))?;
             let path = folder.join("measures.csv");
+            // Of a run that goes on, the lines up to the checkpoint stay.
+            let kept = if args.resume {
+                let old = std::fs::read_to_string(&path).map_err(|e| Fail::file(&path, e))?;
+                let rows = rows_before(scene, scene.engine.steps()) as usize;
+                old.lines().skip(1).take(rows).map(|l| format!("{l}\n")).collect()
+            } else {
+                String::new()
+            };
             let file = File::create(&path).map_err(|e| Fail::file(&path, e))?;
             let mut to = BufWriter::new(file);
-            writeln!(to, "{}", scene.watch.names().join(",")).map_err(|e| Fail::file(&path, e))?;
+            let names = scene.watch.names().join(",");
+            write!(to, "{names}\n{kept}").map_err(|e| Fail::file(&path, e))?;
             measures = Some((path, to));
         }
-        Ok(Out { measures, folder, bar, start: Instant::now() })
+        Ok(Out { measures, folder, bar, start: Instant::now(), first: scene.engine.steps() })
     }
 
     fn close(&mut self) -> Done {
@@ -123,10 +147,20 @@ impl Sink for Out<'_> {
         std::fs::write(&path, vtp).map_err(|e| io(&path, &e))
     }
 
+    fn checkpoint(&mut self, _: u64, bytes: &[u8]) -> Result<()> {
+        let Some(folder) = &self.folder else { return Ok(()) };
+        // What stands in measures.csv then is as old as the checkpoint.
+        if let Some((path, to)) = &mut self.measures {
+            to.flush().map_err(|e| io(path, &e))?;
+        }
+        save_in(folder, &[(CHECKPOINT.to_owned(), bytes.to_vec())])
+    }
+
     fn at(&mut self, place: &Place) -> bool {
         let seconds = self.start.elapsed().as_secs_f64();
         let part = (place.time / place.end).clamp(1e-9, 1.0);
-        let (speed, left) = (place.steps as f64 / seconds, seconds * (1.0 - part) / part);
+        let (speed, left) =
+            ((place.steps - self.first) as f64 / seconds, seconds * (1.0 - part) / part);
         self.bar.set(part, &format!("{speed:.0} steps/s, {left:.0} s left"));
         true
     }
@@ -166,6 +200,10 @@ fn summary(scene: &Scene, over: Over, seconds: f64) -> Done {
                 Some(value) => writeln!(out, "{name:>20}  {value:.6e}")?,
                 None => writeln!(out, "{name:>20}  -")?,
             }
+        }
+        let named = engine.effects().into_iter().filter(|e| e.calls > 0 || e.bytes > 0);
+        for e in named {
+            writeln!(out, "{:>20}  {} calls, {} bytes", e.name, e.calls, e.bytes)?;
         }
         Ok(())
     })

@@ -2,14 +2,15 @@
 
 use super::file::*;
 use super::materials::{coefficients, known};
-use super::templates::{Made, make};
+use super::templates::{Made, Source, make};
 use super::watch::Watch;
+use crate::dem::advice::advise;
 use crate::dem::{
     Coefficients, CohesionLaw, DampingLaw, Engine, Laws, NormalLaw, Placed, Setup, State,
     TangentialLaw, WallMotion, WallSetup, WallShape,
 };
+use crate::dem::{Drag, InsertRegion, Insertion};
 use crate::error::{Error, Result, figure, push};
-use crate::mass::{Contact, ContactOptions, time_step};
 use crate::math::Vec3;
 use crate::run::Run;
 use std::path::Path;
@@ -47,13 +48,14 @@ pub struct Scene {
 /// Refused: names that are not there, numbers out of their range, effects that can do nothing, a time
 /// step of 0 or beyond what the clumps allow without being told so.
 pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
-    let (names, coefficients) = coefficients(file)?;
+    let laws = laws(&file.effects)?;
+    let coefficients = coefficients(file, laws.as_ref())?;
     let mut templates: Vec<Made> = Vec::new();
     for (k, (name, part)) in file.templates.iter().enumerate() {
         run.check(k as f64 / file.templates.len() as f64, "making clumps")?;
         push("templates", &mut templates, make(name, part, folder, run)?)?;
     }
-    let materials: Result<Vec<usize>> = file
+    let materials: Result<Vec<u32>> = file
         .templates
         .iter()
         .map(|(name, t)| known(&file.materials, &t.material, &format!("the template {name}")))
@@ -69,7 +71,7 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
         })?;
         state.add(&Placed {
             template: place as u32,
-            material: materials[place] as u32,
+            material: materials[place],
             position: b.position.into(),
             rotation: b.rotation,
             velocity: b.velocity.into(),
@@ -78,15 +80,15 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
         })?;
     }
     let walls: Result<Vec<WallSetup>> =
-        file.walls.iter().enumerate().map(|(i, w)| wall(i, w, file)).collect();
+        file.walls.iter().enumerate().map(|(i, w)| wall(i, w, file, folder, run)).collect();
     let walls = walls?;
-    let laws = laws(&file.effects)?;
     refuse_idle(file, &templates, &state, &walls, &coefficients)?;
-    let limit = match laws {
-        Some(laws) => Some(limit(file, &laws, &templates, &coefficients)?),
+    let r = &file.run;
+    let advice = match &laws {
+        Some(laws) => advise(laws, &coefficients, &state, r.speed, r.contacts)?,
         None => None,
     };
-    let r = &file.run;
+    let limit = advice.map(|a| a.limit);
     if !(r.end.is_finite() && r.end > 0.0) {
         let end = figure(r.end);
         return Err(Error::InvalidArgument(format!("run.end is {end}, not a number above 0")));
@@ -105,31 +107,37 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
         }
     };
     let mut notes = Vec::new();
-    if let Some(limit) = limit
-        && dt > 0.8 * limit
-    {
-        if dt > limit && r.guard {
+    if let (Some(advice), Some(laws)) = (advice, &laws) {
+        if dt > advice.limit && r.guard {
             return Err(Error::InvalidArgument(format!(
                 "the time step {} is beyond what the clumps allow, {} (run.guard = false lets it run)",
                 figure(dt),
-                figure(limit)
+                figure(advice.limit)
             )));
         }
-        notes.push(format!(
-            "the time step {} is beyond 0.8 of what the clumps allow, {}: the run may gain energy without bound",
-            figure(dt),
-            figure(limit)
-        ));
+        notes.extend(advice.warning(dt, laws));
     }
+    let drag = file.effects.drag.map(|d| Drag {
+        viscosity: d.viscosity,
+        density: d.density,
+        coefficient: d.coefficient,
+        flow: d.flow.into(),
+    });
+    let insertion: Result<Vec<Insertion>> = file
+        .insertion
+        .iter()
+        .enumerate()
+        .map(|(i, part)| insertion(i, part, file, &materials, dt))
+        .collect();
     let setup = Setup {
         dt,
         laws,
-        materials: names.len().max(1),
-        coefficients: if names.is_empty() { vec![Coefficients::default()] } else { coefficients },
+        materials: file.materials.len().max(1),
+        coefficients,
         walls,
         gravity: file.effects.gravity.map(Vec3::from),
-        drag: None,
-        insertion: Vec::new(),
+        drag,
+        insertion: insertion?,
         exact_rotation: r.rotation == RotationName::Exact,
         guard: r.guard,
     };
@@ -150,8 +158,9 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
     let mut engine = Engine::new(setup, state)?;
     engine.start(run)?;
     refuse_overlap(&engine, r.overlap)?;
-    let state = engine.state();
-    let watch = Watch::new(file.output.measures.as_deref(), state.len())?;
+    let coming: u64 = file.insertion.iter().map(|i| i.total).sum();
+    let all = file.bodies.len() as u64 + coming;
+    let watch = Watch::new(file.output.measures.as_deref(), all)?;
     Ok(Scene {
         title: file.title.clone(),
         engine,
@@ -219,6 +228,7 @@ fn refuse_idle(
     coefficients: &[Coefficients],
 ) -> Result<()> {
     let e = &file.effects;
+    let coming = file.insertion.iter().map(|i| i.total).sum::<u64>();
     let no = |what: &str, why: &str| {
         Err(Error::InvalidArgument(format!("effects.{what} can do nothing: {why}")))
     };
@@ -232,11 +242,11 @@ fn refuse_idle(
         if g == [0.0; 3] {
             return no("gravity", "it is 0");
         }
-        if !state.is_empty() && state.fixed.iter().all(|f| *f) {
+        if coming == 0 && state.fixed.iter().all(|f| *f) {
             return no("gravity", "every body is fixed");
         }
     }
-    if e.normal.is_some() && state.len() + walls.len() < 2 {
+    if e.normal.is_some() && (state.len() + walls.len()) as u64 + coming < 2 {
         return no("normal", "there are no two things that could touch");
     }
     let zero = |of: &dyn Fn(&Coefficients) -> f64| coefficients.iter().all(|c| of(c) == 0.0);
@@ -261,6 +271,14 @@ fn refuse_idle(
         );
     }
     Ok(())
+}
+
+impl Scene {
+    /// Goes on from a checkpoint of this scene. Refused: what [`Engine::resume`] refuses.
+    pub fn resume(&mut self, checkpoint: &[u8]) -> Result<()> {
+        self.engine = Engine::resume(self.engine.setup().clone(), checkpoint)?;
+        Ok(())
+    }
 }
 
 /// Refuses bodies that are in each other or in a wall at the start.
@@ -288,43 +306,94 @@ fn refuse_overlap(engine: &Engine, part: f64) -> Result<()> {
     Ok(())
 }
 
-/// The least of what the clumps allow.
-fn limit(
+fn insertion(
+    i: usize,
+    part: &InsertionPart,
     file: &SceneFile,
-    laws: &Laws,
-    templates: &[Made],
-    coefficients: &[Coefficients],
-) -> Result<f64> {
-    let stiffest = coefficients.iter().map(|c| c.stiffness).fold(0.0, f64::max);
-    let contact = match laws.normal {
-        NormalLaw::Linear => Contact::Stiffness(stiffest),
-        // Of two alike: E = Y/(2 (1 − ν²)).
-        NormalLaw::Hertz => Contact::Material { young: 2.0 * stiffest, poisson: 0.0 },
-    };
-    let averaged = if laws.averaging { 1 } else { file.run.contacts };
-    let options = ContactOptions { contact, speed: file.run.speed, contacts: averaged };
-    let mut least = f64::MAX;
-    for t in templates {
-        let spheres = t.body.to_input(&t.spheres);
-        least = least.min(time_step(&spheres, &[], &t.body, &options)?.clump);
+    materials: &[u32],
+    dt: f64,
+) -> Result<Insertion> {
+    let bad = |what: String| Err(Error::InvalidArgument(format!("insertion {i} {what}")));
+    let mut templates = Vec::new();
+    for name in &part.templates {
+        match file.templates.keys().position(|n| n == name) {
+            Some(at) => push("templates", &mut templates, at as u32)?,
+            None => return bad(format!("is of the template {name}, which is not there")),
+        }
     }
-    Ok(least)
+    let of = |t: &u32| materials[*t as usize];
+    let Some(material) = templates.first().map(of) else {
+        return bad("names no template".into());
+    };
+    if templates.iter().any(|t| of(t) != material) {
+        return bad("is of templates of several materials".into());
+    }
+    if !(part.every.is_finite() && part.every > 0.0) {
+        return bad(format!("comes every {}, not a number above 0", figure(part.every)));
+    }
+    let region = match (&part.cuboid, &part.cylinder) {
+        (Some(b), None) => InsertRegion::Box { lo: b.lo.into(), hi: b.hi.into() },
+        (None, Some(c)) => {
+            InsertRegion::Cylinder { center: c.center.into(), radius: c.radius, height: c.height }
+        }
+        _ => return bad("needs one of box and cylinder".into()),
+    };
+    Ok(Insertion {
+        templates,
+        material,
+        region,
+        velocity: part.velocity.into(),
+        total: part.total,
+        batch: part.at_once,
+        every: ((part.every / dt).round().max(1.0)) as u64,
+        attempts: part.attempts,
+        seed: file.run.seed.wrapping_add(i as u64),
+    })
 }
 
-fn wall(i: usize, w: &WallPart, file: &SceneFile) -> Result<WallSetup> {
-    let material = known(&file.materials, &w.material, &format!("wall {i}"))? as u32;
-    let shape = match (&w.plane, &w.cuboid, &w.cylinder) {
-        (Some(p), None, None) => WallShape::Plane { normal: p.normal.into(), offset: p.offset },
-        (None, Some(b), None) => WallShape::Box { lo: b.lo.into(), hi: b.hi.into() },
-        (None, None, Some(c)) => WallShape::Cylinder {
+/// The triangles of a mesh, in the frame of the scene.
+fn mesh(i: usize, part: &MeshPart, folder: &Path, run: &Run) -> Result<WallShape> {
+    if part.file.is_some() == part.shape.is_some() {
+        return Err(Error::InvalidArgument(format!(
+            "the mesh of wall {i} needs one of file and shape"
+        )));
+    }
+    let source = Source {
+        shape: part.shape.as_deref(),
+        set: &part.set,
+        segments: part.segments,
+        file: part.file.as_deref(),
+        scale: part.scale,
+    };
+    let shape = source.shape(folder, run).map_err(|e| e.about(&format!("wall {i}")))?;
+    match shape.body.as_ref() {
+        crate::shape::Body::Mesh(m) => Ok(WallShape::Mesh {
+            vertices: m.vertices.iter().map(|v| shape.frame.to_input(v)).collect(),
+            triangles: m.faces.clone(),
+        }),
+        crate::shape::Body::Voxels(_) => {
+            Err(Error::Unsupported(format!("wall {i} is of voxels, not of triangles")))
+        }
+    }
+}
+
+fn wall(i: usize, w: &WallPart, file: &SceneFile, folder: &Path, run: &Run) -> Result<WallSetup> {
+    let material = known(&file.materials, &w.material, &format!("wall {i}"))?;
+    let shape = match (&w.plane, &w.cuboid, &w.cylinder, &w.mesh) {
+        (Some(p), None, None, None) => {
+            WallShape::Plane { normal: p.normal.into(), offset: p.offset }
+        }
+        (None, Some(b), None, None) => WallShape::Box { lo: b.lo.into(), hi: b.hi.into() },
+        (None, None, Some(c), None) => WallShape::Cylinder {
             center: c.center.into(),
             axis: c.axis.into(),
             radius: c.radius,
             length: c.length,
         },
+        (None, None, None, Some(m)) => mesh(i, m, folder, run)?,
         _ => {
             return Err(Error::InvalidArgument(format!(
-                "wall {i} needs one of plane, box and cylinder"
+                "wall {i} needs one of plane, box, cylinder and mesh"
             )));
         }
     };

@@ -27,6 +27,9 @@ pub struct SceneFile {
     /// Bodies that are there at the start.
     #[serde(default)]
     pub bodies: Vec<BodyPart>,
+    /// Bodies that come while it runs.
+    #[serde(default)]
+    pub insertion: Vec<InsertionPart>,
     /// Walls, in order.
     #[serde(default)]
     pub walls: Vec<WallPart>,
@@ -47,7 +50,7 @@ pub struct RunPart {
     /// Time step; without it a part of what the clumps allow is taken.
     pub step: Option<f64>,
     /// That part.
-    #[serde(default = "tenth")]
+    #[serde(default = "fifth")]
     pub step_part: f64,
     /// Greatest speed at which two bodies meet, for the advice on the time step.
     #[serde(default = "one")]
@@ -74,8 +77,8 @@ pub struct RunPart {
     pub parted: bool,
 }
 
-fn tenth() -> f64 {
-    0.1
+fn fifth() -> f64 {
+    0.2
 }
 
 fn hundredth() -> f64 {
@@ -125,6 +128,25 @@ pub struct EffectsPart {
     /// Contact averaging per pair of bodies.
     #[serde(default)]
     pub averaging: bool,
+    /// A fluid that slows bodies down.
+    pub drag: Option<DragPart>,
+}
+
+/// A fluid.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DragPart {
+    /// Dynamic viscosity.
+    pub viscosity: f64,
+    /// Density.
+    #[serde(default)]
+    pub density: f64,
+    /// Drag coefficient of the quadratic part.
+    #[serde(default)]
+    pub coefficient: f64,
+    /// Velocity of the fluid.
+    #[serde(default)]
+    pub flow: [f64; 3],
 }
 
 /// Repulsion.
@@ -185,7 +207,7 @@ pub struct MaterialPart {
     pub friction: Option<f64>,
     /// Force over speed, for viscous friction.
     pub viscosity: Option<f64>,
-    /// Stiffness in the plane of contact over that along the normal, for the linear law: 2/7 without.
+    /// Stiffness in the plane of contact over that along the normal, for the linear law with friction; 0.8 without.
     pub shear: Option<f64>,
     /// Coefficient of resistance to rolling.
     pub rolling: Option<f64>,
@@ -207,7 +229,7 @@ pub struct PairPart {
     pub friction: Option<f64>,
     /// Force over speed, for viscous friction.
     pub viscosity: Option<f64>,
-    /// Stiffness in the plane of contact over that along the normal, for the linear law: 2/7 without.
+    /// Stiffness in the plane of contact over that along the normal, for the linear law with friction; 0.8 without.
     pub shear: Option<f64>,
     /// Coefficient of resistance to rolling.
     pub rolling: Option<f64>,
@@ -335,6 +357,50 @@ fn upright() -> [f64; 4] {
     [1.0, 0.0, 0.0, 0.0]
 }
 
+/// Bodies that come in random poses that overlap nothing.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InsertionPart {
+    /// Names of the templates, of one material, to choose from.
+    pub templates: Vec<String>,
+    /// Where their centres may be.
+    #[serde(rename = "box")]
+    pub cuboid: Option<BoxPart>,
+    /// Or an upright cylinder: the middle of its lower end, radius, height.
+    pub cylinder: Option<UprightPart>,
+    /// Their velocity.
+    #[serde(default)]
+    pub velocity: [f64; 3],
+    /// How many in all.
+    pub total: u64,
+    /// How many at a time: the least and the most.
+    #[serde(default = "one_by_one")]
+    pub at_once: [u64; 2],
+    /// Time between two batches.
+    pub every: f64,
+    /// Poses tried for each body; those without room come with the next batch.
+    #[serde(default = "hundred")]
+    pub attempts: u32,
+}
+
+fn one_by_one() -> [u64; 2] {
+    [1, 1]
+}
+
+fn hundred() -> u32 {
+    100
+}
+
+/// An upright cylinder.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)]
+pub struct UprightPart {
+    pub center: [f64; 3],
+    pub radius: f64,
+    pub height: f64,
+}
+
 /// A wall: one of its shapes, a material, a motion.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -346,6 +412,8 @@ pub struct WallPart {
     pub cuboid: Option<BoxPart>,
     /// A cylinder around the bodies.
     pub cylinder: Option<CylinderPart>,
+    /// Triangles, touched on both sides.
+    pub mesh: Option<MeshPart>,
     /// Name of its material.
     pub material: String,
     /// It moves with this velocity.
@@ -385,6 +453,21 @@ pub struct CylinderPart {
     pub axis: [f64; 3],
     pub radius: f64,
     pub length: Option<f64>,
+}
+
+/// A mesh: a file, or a built-in particle.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)]
+pub struct MeshPart {
+    pub file: Option<String>,
+    pub shape: Option<String>,
+    #[serde(default)]
+    pub set: BTreeMap<String, f64>,
+    #[serde(default = "edges")]
+    pub segments: usize,
+    #[serde(default = "one")]
+    pub scale: f64,
 }
 
 /// amplitude sin(2π frequency t).

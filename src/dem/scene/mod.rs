@@ -12,6 +12,6 @@ mod watch;
 pub use build::{Scene, build};
 pub use file::SceneFile;
 pub use keys::parse;
-pub use play::{Over, Place, Sink, play};
+pub use play::{Over, Place, Sink, play, rows_before};
 pub use templates::Made;
 pub use watch::Watch;

@@ -26,6 +26,8 @@ pub trait Sink {
     fn row(&mut self, values: &[Option<f64>]) -> Result<()>;
     /// Frame `number`, from 0, as a VTP file.
     fn frame(&mut self, number: u64, vtp: &str) -> Result<()>;
+    /// A checkpoint after so many steps.
+    fn checkpoint(&mut self, steps: u64, bytes: &[u8]) -> Result<()>;
     /// Asked now and then; what it returns says whether to go on.
     fn at(&mut self, place: &Place) -> bool;
 }
@@ -50,6 +52,7 @@ pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
     let last = count(scene.end);
     let every = scene.every.map(count);
     let frames = scene.frames.map(count);
+    let kept = scene.checkpoint.map(count);
     scene.engine.start(run)?;
     if scene.engine.steps() == 0 {
         sink.row(&scene.watch.row(&scene.engine))?;
@@ -62,7 +65,8 @@ pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
     while scene.engine.steps() < last {
         let at = scene.engine.steps();
         let next = |period: Option<u64>| period.map_or(last, |p| (at / p + 1) * p);
-        let to = last.min(next(every)).min(next(frames)).min((at / LOOK + 1) * LOOK);
+        let to =
+            last.min(next(every)).min(next(frames)).min(next(kept)).min((at / LOOK + 1) * LOOK);
         scene.engine.advance(to - at, run)?;
         let due = |period: Option<u64>| period.is_some_and(|p| to.is_multiple_of(p));
         if due(every) && to < last {
@@ -71,6 +75,9 @@ pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
         if due(frames) {
             let number = to / frames.unwrap_or(1);
             sink.frame(number, &frame(&scene.engine))?;
+        }
+        if due(kept) && to < last {
+            sink.checkpoint(to, &scene.engine.checkpoint()?)?;
         }
         let place = Place { time: scene.engine.time(), end: scene.end, steps: to };
         if !sink.at(&place) {
@@ -95,5 +102,12 @@ pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
         }
     }
     sink.row(&scene.watch.row(&scene.engine))?;
+    sink.checkpoint(scene.engine.steps(), &scene.engine.checkpoint()?)?;
     Ok(over)
+}
+
+/// How many lines of measures a run has written when it has come to a step that is a checkpoint's.
+pub fn rows_before(scene: &Scene, steps: u64) -> u64 {
+    let dt = scene.engine.setup().dt;
+    1 + scene.every.map_or(0, |every| steps / ((every / dt).round().max(1.0)) as u64)
 }

@@ -45,7 +45,14 @@ pub(super) fn make(name: &str, part: &TemplatePart, folder: &Path, run: &Run) ->
         let body = Body::of_union(&spheres, part.density, run).map_err(whose)?;
         return Ok(Made { name: name.to_owned(), template, spheres, body });
     }
-    let shape = shape_of(part, folder, run).map_err(whose)?;
+    let source = Source {
+        shape: part.shape.as_deref(),
+        set: &part.set,
+        segments: part.segments,
+        file: part.file.as_deref(),
+        scale: part.scale,
+    };
+    let shape = source.shape(folder, run).map_err(whose)?;
     let resolution = Resolution::CellsLongest(part.cells);
     let solid = SolidOptions { resolution, ..SolidOptions::default() };
     let solid = Solid::new(&shape, &solid, run).map_err(whose)?;
@@ -78,30 +85,37 @@ pub(super) fn make(name: &str, part: &TemplatePart, folder: &Path, run: &Run) ->
     Ok(Made { name: name.to_owned(), template, spheres: body.to_body(&clump.spheres), body })
 }
 
-fn shape_of(part: &TemplatePart, folder: &Path, run: &Run) -> Result<Shape> {
-    let import = ImportOptions { length_unit: part.scale, ..ImportOptions::default() };
-    let Some(name) = &part.shape else { return from_file(part, &import, folder, run) };
-    let mut particle = Primitive::from_name(name)?;
-    for (key, value) in &part.set {
-        particle.set(key, *value)?;
+/// A file or a built-in particle.
+pub(super) struct Source<'a> {
+    pub shape: Option<&'a str>,
+    pub set: &'a std::collections::BTreeMap<String, f64>,
+    pub segments: usize,
+    pub file: Option<&'a str>,
+    pub scale: f64,
+}
+
+impl Source<'_> {
+    pub(super) fn shape(&self, folder: &Path, run: &Run) -> Result<Shape> {
+        let import = ImportOptions { length_unit: self.scale, ..ImportOptions::default() };
+        let Some(name) = self.shape else {
+            return from_file(&folder.join(self.file.unwrap_or_default()), &import, run);
+        };
+        let mut particle = Primitive::from_name(name)?;
+        for (key, value) in self.set {
+            particle.set(key, *value)?;
+        }
+        Shape::from_primitive(&particle, self.segments, &import, run)
     }
-    Shape::from_primitive(&particle, part.segments, &import, run)
 }
 
 #[cfg(feature = "io")]
-fn from_file(
-    part: &TemplatePart,
-    import: &ImportOptions,
-    folder: &Path,
-    run: &Run,
-) -> Result<Shape> {
+fn from_file(file: &Path, import: &ImportOptions, run: &Run) -> Result<Shape> {
     use crate::shape::read::FileOptions;
     let options = FileOptions { import: import.clone(), ..FileOptions::default() };
-    Shape::from_file(&folder.join(part.file.as_deref().unwrap_or_default()), &options, run)
+    Shape::from_file(file, &options, run)
 }
 
 #[cfg(not(feature = "io"))]
-fn from_file(part: &TemplatePart, _: &ImportOptions, _: &Path, _: &Run) -> Result<Shape> {
-    let file = part.file.as_deref().unwrap_or_default();
-    Err(Error::Unsupported(format!("{file} is not read without the feature io")))
+fn from_file(file: &Path, _: &ImportOptions, _: &Run) -> Result<Shape> {
+    Err(Error::Unsupported(format!("{} is not read without the feature io", file.display())))
 }

@@ -86,7 +86,7 @@ const OWN: [(&str, Own); 13] = [
 impl Watch {
     /// The measures of these names: those of the whole, or `x:3` and the like for the body with the label 3 (bodies are
     /// numbered as they come). Without names: time, kinetic, potential, stored, energy, contacts.
-    pub(super) fn new(names: Option<&[String]>, bodies: usize) -> Result<Watch> {
+    pub(super) fn new(names: Option<&[String]>, bodies: u64) -> Result<Watch> {
         let usual = ["time", "kinetic", "potential", "stored", "energy", "contacts"];
         let names: Vec<String> = match names {
             Some(names) => names.to_vec(),
@@ -169,7 +169,7 @@ fn top(engine: &Engine) -> f64 {
     most.unwrap_or(0.0)
 }
 
-fn measure(name: &str, bodies: usize) -> Result<Measure> {
+fn measure(name: &str, bodies: u64) -> Result<Measure> {
     if let Some((_, w)) = WHOLE.iter().find(|w| w.0 == name) {
         return Ok(Measure::Whole(*w));
     }
@@ -181,7 +181,7 @@ fn measure(name: &str, bodies: usize) -> Result<Measure> {
                 "the measure {name} names no body: {label} is no number"
             ))
         })?;
-        if bodies > 0 && label >= bodies as u64 {
+        if label >= bodies {
             return Err(Error::InvalidArgument(format!(
                 "the measure {name} names a body that is not there: {bodies} are"
             )));
