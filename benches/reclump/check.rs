@@ -2,7 +2,7 @@
 
 use super::breaks::{Random, parent, particles};
 use morula::fragment::{CutOptions, Parent, ReclumpOptions, Region, Union, cut, reclump};
-use morula::mass::{single_precision, union_moments};
+use morula::mass::single_precision;
 use morula::math::Vec3;
 use morula::{Error, Run, Sphere};
 
@@ -27,20 +27,23 @@ const WHATS: [&str; 5] = [
     "beyond the surface",
     "beyond a cut",
     "beyond the union of the parent's spheres",
-    "volume outside that union, of the sphere's",
+    "the same, of points on the sphere",
 ];
 const HOWS: [&str; 3] = ["double", "single asked for", "rounded to single afterwards"];
-/// Of so many spheres the volume outside the union is measured for one.
+/// Of so many spheres one is looked at by points.
 const MEASURED: usize = 20;
 
-/// What of a sphere lies outside a union, over its volume, by the volumes of unions.
+/// How far points on a sphere lie outside all of some others: what the depth in their union is held
+/// against, by other means.
 fn outside(s: &Sphere, union: &[Sphere]) -> f64 {
-    let meets = |o: &&Sphere| (o.center - s.center).norm() < o.radius + s.radius;
-    let mut near: Vec<Sphere> = union.iter().filter(meets).copied().collect();
-    let volume = |all: &[Sphere]| union_moments(all, &Run::serial()).map_or(0.0, |m| m.volume);
-    let before = if near.is_empty() { 0.0 } else { volume(&near) };
-    near.push(*s);
-    (volume(&near) - before) / s.volume()
+    let out = |k: i32| {
+        // Spread evenly: turned on by the golden angle from pole to pole.
+        let (z, turn) = ((f64::from(k) + 0.5) / 150.0 - 1.0, 2.399_963_229_728_653 * f64::from(k));
+        let way = Vec3::new(turn.cos(), turn.sin(), 0.0) * (1.0 - z * z).sqrt() + Vec3::z() * z;
+        let p = s.center + way * s.radius;
+        union.iter().map(|o| (p - o.center).norm() - o.radius).fold(f64::MAX, f64::min)
+    };
+    (0..300).map(out).fold(f64::MIN, f64::max)
 }
 
 /// Looks at the clumps of one break.
@@ -72,7 +75,7 @@ fn look(
             if let Some(union) = union {
                 found[3].see(unit.radius - union.depth(&unit.center), 0.0);
                 if found[3].seen.is_multiple_of(MEASURED) {
-                    found[4].see(outside(&unit, parent.unit_spheres()), 1e-11);
+                    found[4].see(outside(&unit, parent.unit_spheres()), 1e-12);
                 }
             }
         }
