@@ -306,7 +306,7 @@
 #define MORULA_LEVELS_FREE 0
 
 /// Each level starts from the one before where the method can (MORULA_METHOD_BEST without
-/// symmetry), which is quicker.
+/// symmetry), so that levels are alike; hardly quicker.
 #define MORULA_LEVELS_CHAINED 1
 
 /// Each level holds all spheres of the one before, in the same order, and further ones after them:

@@ -21,7 +21,7 @@ root = pathlib.Path(data) if data else None
 scratch = tempfile.TemporaryDirectory()
 work = pathlib.Path(scratch.name)
 COUNTS = (1, 2, 3, 5, 10, 20, 30, 50, 100)
-PEER_SECONDS = 240
+PEER_SECONDS = 900
 text, missing = [], []
 # As fitted, with the steps between two lists.
 MODEL = None
@@ -144,14 +144,12 @@ def knee(line):
 
 
 def where(points):
-    """The last number up to which each doubling of the spheres takes a fifth off D, and what D is there."""
+    """The last point to which a doubling of the spheres still takes a fifth off D."""
     last = points[0]
     for before, after in zip(points, points[1:]):
         doublings = math.log2(after["n"] / before["n"]) if after["n"] > before["n"] else 0
         if doublings and (before["D"] / max(after["D"], 1e-9)) ** (1 / doublings) >= 1.25:
             last = after
-        else:
-            break
     return last
 
 
@@ -185,28 +183,29 @@ def lists():
 
 def words(paying):
     say("## Where more spheres stop paying", "",
-        "*pays to*: the last n of the list up to which each doubling of the spheres still takes a fifth or more off D;",
+        "*pays to*: the last n of the list to which a doubling of the spheres still takes a fifth or more off D;",
         "*knee*: what `morula cost` chooses on its own, by D against the cost of a step (the last n where the curve has no",
         "knee).", "")
-    table(("body", "pays to n", "D there", "step there", "knee", "D at the last n", "of D there"), paying)
-    flat = [p[0] for p in paying if isinstance(p[1], int) and p[1] <= 30]
-    steep = [p[0] for p in paying if isinstance(p[1], int) and p[1] >= 100]
-    middle = [p[0] for p in paying if p[0] not in flat and p[0] not in steep]
-    if flat:
-        say(f"For {', '.join(flat)} 30 spheres or fewer are the end of it: what is left is smaller than the mesh's own",
-            "error or lies in what spheres cannot show, and more spheres only make steps dearer.")
-    if middle:
-        say(f"For {', '.join(middle)} the gain flattens between 30 and 100.")
+    table(("body", "pays to n", "D there", "step there", "knee", "D at the last n"), [p[:6] for p in paying])
+    steep = [p[0] for p in paying if p[1] >= COUNTS[-1]]
+    for p in paying:
+        if p[1] < COUNTS[-1]:
+            say(f"For {p[0]} more than {p[1]} spheres no longer pay: D is {p[2]} there, {p[5]} with {COUNTS[-1]}.")
     if steep:
-        say(f"For {', '.join(steep)} each doubling goes on taking a fifth or more off D up to 100 spheres; there the cost of a",
-            "step, which grows faster than n, is what ends it, not the shape.")
+        say(f"For {', '.join(steep)} every doubling up to {COUNTS[-1]} spheres goes on taking a fifth or more off D at the end of",
+            f"the list: what ends it is the cost of a step, {paying[-1][3]} times that of a sphere there, not the shape.")
+    bent = [p for p in paying if p[4] != "–" and p[4] < COUNTS[-1]]
+    for p in bent:
+        say(f"Against the cost of a step {p[0]} bends at {p[4]} spheres: beyond it D falls less for what a step costs.")
     say("")
 
 
 def routes():
     say("## Levels that are free, chained or nested", "",
         "One solid and one distance field serve all. Free levels are what single calls give; chained ones start from the one",
-        "before; nested ones hold all spheres of the one before. D of the levels, and seconds of all together.", "")
+        "before, which leaves them alike but is hardly quicker, as most of the time goes into the search after the start;",
+        "nested ones hold all spheres of the one before, in its order, so that a solver takes as many as it needs. Their small",
+        "levels must reach out less, and the large ones keep the spheres of the small. D of the levels, and seconds of all.", "")
     rows = []
     for shape in bodies()[:4] + ["sample:stone,seed=7"]:
         for levels in ("free", "chained", "nested"):
@@ -320,8 +319,10 @@ def judged(spheres, shape):
 
 
 def theirs(kind, mesh, n, *more):
-    path = work / "peer.json"
-    path.unlink(missing_ok=True)
+    name = "_".join(map(str, (kind, pathlib.Path(mesh).stem, n, *more)))
+    path = keep / f"{name}.peer.json"
+    if path.exists():
+        return json.loads(path.read_text())
     done = subprocess.run([peers, str(HERE / "peer.py"), kind, str(mesh), str(n), str(path), *map(str, more)],
                           capture_output=True, text=True, timeout=PEER_SECONDS)
     if done.returncode or not path.exists():

@@ -136,7 +136,7 @@ pub const MORULA_EFFORT_THOROUGH: i32 = 2;
 /// (the default).
 pub const MORULA_LEVELS_FREE: i32 = 0;
 /// Each level starts from the one before where the method can (MORULA_METHOD_BEST without
-/// symmetry), which is quicker.
+/// symmetry), so that levels are alike; hardly quicker.
 pub const MORULA_LEVELS_CHAINED: i32 = 1;
 /// Each level holds all spheres of the one before, in the same order, and further ones after them:
 /// MORULA_METHOD_BEST, MORULA_METHOD_COVER, MORULA_METHOD_EUCLIDEAN.
