@@ -336,7 +336,7 @@ def beside():
         "0.95, with div and rMin of Buchele et al. 2026, table 1: ellipsoid 100 and 0.25, femur 150 and 4; for particles,",
         "where the table has 'varying', rMin 0, 2 and 5 % of the shortest edge at div 100, and the best of them. D by our exact columns for all.",
         "*equal time*: the least D of ours (`best`, draft, normal or thorough) within their time; *same D*: the fewest of our",
-        "spheres that are as good, and their time.", "")
+        "spheres that are as good, and their time by the clock with the distance field. Theirs hold loading, ours of the other columns the method alone.", "")
     rows = []
     for shape, n, div, rmin in cells():
         if not pathlib.Path(shape).exists():
