@@ -220,8 +220,8 @@ impl<'a> State<'a> {
     /// The width, from the clump's exposed area.
     pub(super) fn measure_width(&mut self, area: f64) {
         // Of balls that stay no area is known: as much as of the others.
-        let n = self.balls.len() as f64;
-        let area = area * n / (n - self.fixed as f64).max(1.0);
+        let (n, free) = (self.balls.len() as f64, (self.balls.len() - self.fixed) as f64);
+        let area = if self.fixed > 0 { area * n / free.max(1.0) } else { area };
         let volume = self.left_of(&self.lengths) * self.ground.dexels.cell();
         let least = 1e-5 * f64::from(self.ground.size);
         let width = if area > 0.0 { volume / area } else { 0.0 };
