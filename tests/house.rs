@@ -157,7 +157,7 @@ const ROOMS: [(&str, &[&str]); 13] = [
         "dem",
         &[
             "error", "math", "run", "shape", "solid", "measure", "clump", "generate", "mass",
-            "fragment", "export",
+            "fragment", "export", "serial",
         ],
     ),
 ];

@@ -1,9 +1,11 @@
 //! The loop over time.
 
+use super::breaking::Broken;
 use super::broad::Broad;
 use super::contact::{Calls, Law, Laws, Visitor, choose};
 use super::effects::cohesion::jkr_range;
 use super::effects::drag::{self, Drag};
+use super::effects::fragmentation::Breaker;
 use super::effects::insertion::Insertion;
 use super::effects::{Coefficients, gravity};
 use super::energy;
@@ -104,21 +106,24 @@ pub struct EffectReport {
 
 /// A running simulation.
 pub struct Engine {
-    setup: Setup,
-    state: State,
+    pub(super) setup: Setup,
+    pub(super) state: State,
     walls: Vec<Wall>,
     wall_pairs: Vec<Pair>,
     wall_force: Vec<Vec3>,
     wall_torque: Vec<Vec3>,
     broad: Broad,
     kernel: Option<Box<dyn Kernel>>,
-    work: Work,
+    pub(super) work: Work,
     step: u64,
     /// Energy that was put in: kinetic and potential of the bodies, springs, work of walls.
-    put_in: f64,
+    pub(super) put_in: f64,
     /// Bodies of each insertion so far.
     inserted: Vec<u64>,
     started: bool,
+    pub(super) breaker: Option<Breaker>,
+    /// What a checkpoint said of pieces, until it is asked for.
+    pub(super) broken: Option<Broken>,
 }
 
 struct Make;
@@ -202,6 +207,8 @@ impl Engine {
             step: 0,
             put_in: 0.0,
             started: false,
+            breaker: None,
+            broken: None,
         })
     }
 
@@ -244,6 +251,9 @@ impl Engine {
             )));
         }
         let label = self.state.add(body)?;
+        if let Some(b) = &mut self.breaker {
+            b.add();
+        }
         if self.started {
             let i = self.state.len() - 1;
             let [a, b] = self.energy_of(i);
@@ -283,7 +293,7 @@ impl Engine {
         }
         self.insert()?;
         self.started = true;
-        self.forces(run);
+        self.forces(run, self.setup.dt);
         let [a, b] = energy::kinetic(&self.state);
         let stored: f64 = self.contacts().iter().flatten().map(|c| c.energy.max(0.0)).sum();
         self.put_in += a + b + stored + self.potential();
@@ -307,6 +317,13 @@ impl Engine {
         Ok(())
     }
 
+    /// Forgets all contacts of the bodies from this number on.
+    pub(super) fn forget_from(&mut self, first: u32) {
+        self.broad.pairs.retain(|p| p.b < first);
+        self.wall_pairs.retain(|p| p.b < first);
+        self.broad.forget();
+    }
+
     /// How many bodies each insertion has brought.
     pub fn inserted(&self) -> &[u64] {
         &self.inserted
@@ -318,6 +335,9 @@ impl Engine {
             return Err(Error::IndexOutOfRange(format!("there is no body {label}")));
         };
         self.state.remove(i);
+        if let Some(b) = &mut self.breaker {
+            b.remove(i);
+        }
         let i = i as u32;
         self.broad.remove(i);
         self.wall_pairs.retain_mut(|p| {
@@ -370,6 +390,11 @@ impl Engine {
             ("drag", w.drag, 0),
             ("insertion", w.insertion, insertion as u64),
             ("motion", w.motion, moving as u64),
+            (
+                "fragmentation",
+                self.breaker.as_ref().map_or(0, |b| b.calls),
+                self.breaker.as_ref().map_or(0, Breaker::bytes),
+            ),
         ]
         .map(|(name, calls, bytes)| EffectReport { name, calls, bytes })
         .to_vec()
@@ -387,6 +412,7 @@ impl Engine {
             walls: snapshot::memories(&self.wall_pairs, width),
             wall_force: self.wall_force.clone(),
             wall_torque: self.wall_torque.clone(),
+            broken: self.broken()?,
         }
         .to_bytes()
     }
@@ -414,11 +440,12 @@ impl Engine {
         for wall in &mut engine.walls {
             wall.to(time, dt);
         }
+        engine.broken = s.broken;
         engine.started = true;
         Ok(engine)
     }
 
-    fn potential(&self) -> f64 {
+    pub(super) fn potential(&self) -> f64 {
         self.setup.gravity.map_or(0.0, |g| energy::potential(&self.state, &g))
     }
 
@@ -432,11 +459,14 @@ impl Engine {
                 self.work.motion += 1;
             }
         }
-        self.forces(run);
+        self.forces(run, self.setup.dt);
         integrate::kick(&mut self.state, dt);
         for (i, wall) in self.walls.iter().enumerate() {
             let power = self.wall_force[i].dot(&wall.kin.v) + self.wall_torque[i].dot(&wall.kin.w);
             self.put_in -= power * dt;
+        }
+        if self.breaker.is_some() {
+            self.break_due(run)?;
         }
         self.insert()?;
         if self.setup.guard && self.step.is_multiple_of(GUARD) {
@@ -445,8 +475,8 @@ impl Engine {
         Ok(())
     }
 
-    /// Forces and torques at this time.
-    fn forces(&mut self, run: &Run) {
+    /// Forces and torques at this time, `dt` after the last.
+    pub(super) fn forces(&mut self, run: &Run, dt: f64) {
         let n = self.state.len();
         self.state.force.fill(Vec3::zeros());
         self.state.torque.fill(Vec3::zeros());
@@ -478,7 +508,7 @@ impl Engine {
             materials: self.setup.materials,
             coefficients: &self.setup.coefficients,
             range: range(&self.setup, &s.templates),
-            dt: self.setup.dt,
+            dt,
             felt: self.setup.laws.is_some_and(|l| l.damping == super::contact::DampingLaw::Contact),
             averaging: self.setup.laws.is_some_and(|l| l.averaging),
         };
@@ -487,6 +517,10 @@ impl Engine {
             torque: &mut s.torque,
             wall_force: &mut self.wall_force,
             wall_torque: &mut self.wall_torque,
+            load: self.breaker.as_mut().map(|b| {
+                b.load.fill(0.0);
+                b.load.as_mut_slice()
+            }),
         };
         let (pairs, walls) = (&mut self.broad.pairs, &mut self.wall_pairs);
         let pool = run.pool();

@@ -20,7 +20,7 @@ pub(crate) fn drift(state: &mut State, dt: f64, exactly: bool) {
             continue;
         }
         let (force, torque) = (state.force[i], state.torque[i]);
-        let kick = force * (half / t.mass());
+        let kick = force * (half * t.inverse_mass());
         let vh = state.velocity[i] + kick;
         let lh = state.momentum[i] + torque * half;
         state.velocity[i] = vh;
@@ -48,8 +48,8 @@ pub(crate) fn kick(state: &mut State, dt: f64) {
     let half = 0.5 * dt;
     for i in 0..state.position.len() {
         if !state.fixed[i] {
-            let mass = state.templates[state.template[i] as usize].mass();
-            state.velocity[i] += state.force[i] * (half / mass);
+            let inverse = state.templates[state.template[i] as usize].inverse_mass();
+            state.velocity[i] += state.force[i] * (half * inverse);
             state.momentum[i] += state.torque[i] * half;
         }
     }

@@ -55,10 +55,11 @@ impl Context<'_> {
         &self.templates[self.template[i as usize] as usize]
     }
 
+    #[inline(always)]
     fn body(&self, i: u32) -> End<'_> {
         let (at, t) = (i as usize, self.template(i));
         let (inverse_mass, inertia) =
-            if self.fixed[at] { (0.0, Vec3::zeros()) } else { (1.0 / t.mass(), *t.inverse()) };
+            if self.fixed[at] { (0.0, Vec3::zeros()) } else { (t.inverse_mass(), *t.inverse()) };
         End {
             kin: &self.kin[at],
             moved: self.moved[at],
@@ -68,6 +69,7 @@ impl Context<'_> {
         }
     }
 
+    #[inline(always)]
     fn wall(&self, i: u32) -> End<'_> {
         let w = &self.walls[i as usize];
         let (inverse_mass, inertia) = (0.0, Vec3::zeros());
@@ -110,6 +112,8 @@ pub(crate) struct Sums<'a> {
     pub torque: &'a mut [Vec3],
     pub wall_force: &'a mut [Vec3],
     pub wall_torque: &'a mut [Vec3],
+    /// Sizes of the forces on each body, where an effect asks for them.
+    pub load: Option<&'a mut [f64]>,
 }
 
 impl Sums<'_> {
@@ -120,6 +124,11 @@ impl Sums<'_> {
         self.force[b] += w.force;
         self.torque[a] += w.torques[0];
         self.torque[b] += w.torques[1];
+        if let Some(load) = &mut self.load {
+            let size = w.force.norm();
+            load[a] += size;
+            load[b] += size;
+        }
     }
 
     #[inline(always)]
@@ -129,6 +138,9 @@ impl Sums<'_> {
         self.wall_torque[a] += w.torques[0];
         self.force[b] += w.force;
         self.torque[b] += w.torques[1];
+        if let Some(load) = &mut self.load {
+            load[b] += w.force.norm();
+        }
     }
 }
 

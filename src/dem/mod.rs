@@ -5,6 +5,7 @@
 //! [`engine`] is the loop. Forces depend on the state alone, never on lists or threads.
 
 pub mod advice;
+mod breaking;
 mod broad;
 pub mod contact;
 pub mod effects;
@@ -20,6 +21,7 @@ pub mod scene;
 mod small;
 mod snapshot;
 pub mod state;
+pub mod tablet;
 pub mod template;
 mod tree;
 pub mod walls;

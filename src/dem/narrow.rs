@@ -66,11 +66,14 @@ pub(crate) struct Pair {
     pub wrench: Option<Wrench>,
 }
 
-/// One of the short list: its number in the long one, and its gap.
+/// One of the short list: its gap, its number in the long one, the two spheres, and whether it may remember something.
 #[derive(Debug, Clone, Copy)]
 struct Short {
-    k: u32,
     gap: f64,
+    k: u32,
+    a: u32,
+    b: u32,
+    live: bool,
 }
 
 /// One contact, for those who look.
@@ -304,18 +307,20 @@ impl Pair {
         }
         let (mut force, mut torques) = (Vec3::zeros(), [Vec3::zeros(); 2]);
         let (mut count, mut elastic, mut closest) = (0u32, 0.0, self.expire - moved);
-        for short in &self.short {
+        for short in &mut self.short {
             if short.gap > used {
                 closest = closest.min(short.gap - used);
                 continue;
             }
-            let k = short.k as usize;
-            let near = &self.near[k];
-            let s = &spheres[near.b as usize];
+            let s = &spheres[short.b as usize];
             let center = mul(&turn, &s.center) + shift;
-            let memory = &mut self.memory[k * L::WIDTH..(k + 1) * L::WIDTH];
-            let Some(m) = first.meet(near.a, &center, s.radius) else {
-                clear(memory);
+            let at = short.k as usize * L::WIDTH;
+            let memory = &mut self.memory;
+            let Some(m) = first.meet(short.a, &center, s.radius) else {
+                if L::WIDTH > 0 && short.live {
+                    memory[at..at + L::WIDTH].fill(0.0);
+                    short.live = false;
+                }
                 closest = closest.min(0.0);
                 continue;
             };
@@ -332,11 +337,16 @@ impl Pair {
                     motion: &motion,
                     dt: context.dt,
                 };
-                action = L::act(&touch, context.felt, memory, &mut scratch.calls);
+                short.live = true;
+                let own = &mut memory[at..at + L::WIDTH];
+                action = L::act(&touch, context.felt, own, &mut scratch.calls);
             }
             let Some(Action { force: f, couple, elastic: e }) = action else {
                 closest = closest.min(m.gap - context.range);
-                clear(memory);
+                if L::WIDTH > 0 && short.live {
+                    memory[at..at + L::WIDTH].fill(0.0);
+                    short.live = false;
+                }
                 continue;
             };
             count += 1;
@@ -356,9 +366,12 @@ impl Pair {
             scratch.calls.averaging += 1;
             let share = self.average.share(count, elastic);
             force *= share;
-            torques = torques.map(|t| t * share);
+            torques = [torques[0] * share, torques[1] * share];
         }
-        Some(Wrench { force: mul(&ka.r, &force), torques: torques.map(|t| mul(&ka.r, &t)) })
+        Some(Wrench {
+            force: mul(&ka.r, &force),
+            torques: [mul(&ka.r, &torques[0]), mul(&ka.r, &torques[1])],
+        })
     }
 
     #[inline]
@@ -412,7 +425,8 @@ impl Pair {
                 let s = &body.spheres()[near.b as usize];
                 gap = first.gap(near.a, &(mul(turn, &s.center) + shift), s.radius);
                 if gap <= more + context.range {
-                    self.short.push(Short { k: k as u32, gap });
+                    let (k, a, b) = (k as u32, near.a, near.b);
+                    self.short.push(Short { gap, k, a, b, live: width > 0 });
                 }
             }
             least = least.min(gap);

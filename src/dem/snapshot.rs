@@ -1,6 +1,7 @@
 //! Checkpoints: all that a later step depends on, so that a run that goes on from one gives the same bytes as
 //! one that never stopped.
 
+use super::breaking::Broken;
 use super::effects::averaging::Average;
 use super::narrow::Pair;
 use super::rotate::Orientation;
@@ -63,6 +64,7 @@ pub(crate) struct Snapshot {
     pub walls: Vec<Memory>,
     pub wall_force: Vec<Vec3>,
     pub wall_torque: Vec<Vec3>,
+    pub broken: Option<Broken>,
 }
 
 impl Snapshot {

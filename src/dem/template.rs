@@ -13,6 +13,7 @@ pub struct Template {
     order: Vec<u32>,
     tree: Tree,
     mass: f64,
+    inverse_mass: f64,
     moments: [f64; 3],
     inverse: Vec3,
     reach: f64,
@@ -71,7 +72,18 @@ impl Template {
         let bound = most(&|s| s.center.norm() + s.radius);
         let inverse = Vec3::from(moments.map(|m| 1.0 / m));
         let least = own.iter().map(|s| s.radius).fold(f64::MAX, f64::min);
-        Ok(Template { spheres: own, order, tree, mass, moments, inverse, reach, bound, least })
+        Ok(Template {
+            spheres: own,
+            order,
+            tree,
+            mass,
+            inverse_mass: 1.0 / mass,
+            moments,
+            inverse,
+            reach,
+            bound,
+            least,
+        })
     }
 
     /// The template of spheres in the caller's frame that stand for `body`.
@@ -103,6 +115,11 @@ impl Template {
     /// Mass.
     pub fn mass(&self) -> f64 {
         self.mass
+    }
+
+    #[inline]
+    pub(crate) fn inverse_mass(&self) -> f64 {
+        self.inverse_mass
     }
 
     /// Principal moments about the body axes.

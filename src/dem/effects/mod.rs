@@ -7,6 +7,7 @@ pub mod averaging;
 pub mod cohesion;
 pub mod damping;
 pub mod drag;
+pub mod fragmentation;
 pub mod gravity;
 pub mod insertion;
 pub mod motion;

@@ -1,0 +1,249 @@
+//! How an engine breaks its bodies.
+
+use super::contact::Calls;
+use super::effects::fragmentation::{
+    BreakRecord, Breaker, Energies, Fragmentation, Pieces, Shard, motion_of,
+};
+use super::energy;
+use super::engine::Engine;
+use super::narrow::ContactRecord;
+use super::template::Template;
+use crate::error::{Error, Result};
+use crate::math::{Sphere, Vec3};
+use crate::run::Run;
+use crate::serial::{fragment_from_bytes, fragment_to_bytes};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// What a checkpoint keeps of breakage.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Broken {
+    impulse: Vec<f64>,
+    shards: Vec<Option<Kept>>,
+}
+
+/// What a template is a piece of; a region in the bytes of the room for such.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Kept {
+    parent: usize,
+    region: Option<Vec<u8>>,
+    center: Vec3,
+    axes: [f64; 4],
+    generation: u32,
+}
+
+impl Engine {
+    /// Lets bodies break. After [`Engine::resume`] with the same fragmentation as before: pieces break on as they
+    /// would have.
+    pub fn break_by(&mut self, setup: Fragmentation) -> Result<()> {
+        let mut breaker = Breaker::new(setup, &self.state)?;
+        if let Some(broken) = self.broken.take() {
+            let damaged = || Error::Format("the checkpoint's pieces do not agree".into());
+            if broken.impulse.len() != self.state.len() {
+                return Err(damaged());
+            }
+            breaker.impulse = broken.impulse;
+            for (slot, kept) in breaker.shards.iter_mut().zip(broken.shards) {
+                let Some(k) = kept else {
+                    *slot = None;
+                    continue;
+                };
+                let of = breaker.setup.breakable.get(k.parent).ok_or_else(damaged)?;
+                let region = match &k.region {
+                    Some(bytes) => Some(fragment_from_bytes(&of.parent, bytes)?.region),
+                    None => None,
+                };
+                let Kept { parent, center, axes, generation, .. } = k;
+                *slot = Some(Shard { parent, region, center, axes, generation });
+            }
+        }
+        self.breaker = Some(breaker);
+        Ok(())
+    }
+
+    /// The breaks so far.
+    pub fn breaks(&self) -> &[BreakRecord] {
+        self.breaker.as_ref().map_or(&[], |b| &b.log)
+    }
+
+    /// Breaks body `label` now, whatever its load.
+    pub fn break_now(&mut self, label: u64, run: &Run) -> Result<()> {
+        let Ok(i) = self.state.label.binary_search(&label) else {
+            return Err(Error::IndexOutOfRange(format!("there is no body {label}")));
+        };
+        let known = |b: &Breaker| {
+            b.shards.get(self.state.template[i] as usize).is_some_and(Option::is_some)
+        };
+        if !self.breaker.as_ref().is_some_and(known) {
+            return Err(Error::InvalidArgument(format!("body {label} cannot break")));
+        }
+        self.start(run)?;
+        self.shatter(i, run)
+    }
+
+    /// What a checkpoint keeps.
+    pub(super) fn broken(&self) -> Result<Option<Broken>> {
+        let Some(b) = &self.breaker else { return Ok(None) };
+        let mut shards = Vec::new();
+        for shard in &b.shards {
+            let Some(s) = shard else {
+                shards.push(None);
+                continue;
+            };
+            let parent = &b.setup.breakable[s.parent].parent;
+            let region = match &s.region {
+                Some(region) => Some(fragment_to_bytes(parent, region, &[])?),
+                None => None,
+            };
+            let (center, axes) = (s.center, s.axes);
+            let (parent, generation) = (s.parent, s.generation);
+            shards.push(Some(Kept { parent, region, center, axes, generation }));
+        }
+        Ok(Some(Broken { impulse: b.impulse.clone(), shards }))
+    }
+
+    /// Breaks what is due.
+    pub(super) fn break_due(&mut self, run: &Run) -> Result<()> {
+        let dt = self.setup.dt;
+        let Some(b) = &mut self.breaker else { return Ok(()) };
+        let due = b.due(&self.state, dt);
+        // From the last, so that the numbers of those before stay.
+        for i in due.into_iter().rev() {
+            self.shatter(i, run)?;
+        }
+        Ok(())
+    }
+
+    fn energies(&self) -> Energies {
+        let [a, b] = energy::kinetic(&self.state);
+        let stored = self.contacts().iter().flatten().map(|c| c.energy).sum();
+        Energies { kinetic: a + b, potential: self.potential(), stored }
+    }
+
+    fn shatter(&mut self, i: usize, run: &Run) -> Result<()> {
+        let [bodies, walls] = self.contacts();
+        let of_bodies = bodies.iter().filter(|c| c.a as usize == i || c.b as usize == i);
+        let inward = of_bodies
+            .map(|c| (c.overlap, c.point, if c.b as usize == i { c.normal } else { -c.normal }));
+        let of_walls = walls.iter().filter(|c| c.b as usize == i);
+        let all = inward.chain(of_walls.map(|c| (c.overlap, c.point, c.normal)));
+        let hit = all.max_by(|x, y| x.0.total_cmp(&y.0)).map(|(_, p, n)| (p, n));
+        let before = self.energies();
+        let of_it = |c: &&ContactRecord| c.b as usize == i;
+        let held = bodies.iter().filter(|c| c.a as usize == i || of_it(c));
+        let held: f64 = held.chain(walls.iter().filter(of_it)).map(|c| c.energy).sum();
+        let Some(breaker) = &mut self.breaker else { return Ok(()) };
+        let found = match breaker.pieces(&self.state, i, hit) {
+            Ok(p) if p.fragments.len() + p.shattered.dust.len() > 1 => p,
+            // What cannot be cut stays whole for ever.
+            Ok(_) | Err(Error::NoSpheres(_) | Error::Empty(_)) => {
+                breaker.shards[self.state.template[i] as usize] = None;
+                return Ok(());
+            }
+            Err(e) => return Err(e.about(&format!("body {}", self.state.label[i]))),
+        };
+        let Pieces { fragments, shattered } = found;
+        let s = &self.state;
+        let t = s.template_of(i);
+        let at = (s.position[i], s.velocity[i], s.angular_velocity(i));
+        let whole = motion_of(t.mass(), t.moments(), s.orientation[i].quaternion, at);
+        let label = s.label[i];
+        let (mut mass, mut momentum, mut angular) = (-whole.0, -whole.1, -whole.2);
+        let mut add = |m: &crate::fragment::Moving| {
+            let at = (m.position, m.velocity, m.angular_velocity);
+            let own = motion_of(m.mass, m.principal.moments, m.rotation, at);
+            mass += own.0;
+            momentum += own.1;
+            angular += own.2;
+            own.3
+        };
+        shattered.fragments.iter().for_each(|f| {
+            add(&f.moving);
+        });
+        let g = self.setup.gravity.unwrap_or_default();
+        let mut dust = Energies::default();
+        let mut lost = 0.0;
+        for crumb in &shattered.dust {
+            dust.kinetic += add(&crumb.moving);
+            dust.potential -= crumb.moving.mass * g.dot(&crumb.moving.position);
+            lost += crumb.moving.mass;
+        }
+        let energy_in = self.put_in;
+        self.remove(label)?;
+        let mut labels = Vec::new();
+        for (template, shard, mut placed) in fragments {
+            placed.template = self.add_template(template);
+            if let Some(b) = &mut self.breaker {
+                b.shards.resize(placed.template as usize, None);
+                b.shards.push(Some(shard));
+            }
+            labels.push(self.add(&placed)?);
+        }
+        // Nothing is put in by a break, and what dust takes away is gone.
+        self.put_in = energy_in - dust.kinetic - dust.potential;
+        // Forces of the pieces at this time; springs do not move on.
+        let calls: Calls = self.work.calls;
+        self.forces(run, 0.0);
+        self.yield_to_neighbours(self.state.len() - labels.len(), held)?;
+        self.forces(run, 0.0);
+        self.work.calls = calls;
+        let mut after = self.energies();
+        after.kinetic += dust.kinetic;
+        after.potential += dust.potential;
+        let record = BreakRecord {
+            step: self.steps(),
+            label,
+            fragments: labels,
+            dust: lost,
+            before,
+            after,
+            mass,
+            momentum,
+            angular_momentum: angular,
+        };
+        if let Some(b) = &mut self.breaker {
+            b.log.push(record);
+        }
+        Ok(())
+    }
+
+    /// Where more springs of the bodies from number `first` on are pressed than were before, and hold more energy than
+    /// `held`, the spheres that press are made smaller by a part of their overlaps: with overlaps s times
+    /// as deep no spring holds more than s² times as much.
+    fn yield_to_neighbours(&mut self, first: usize, held: f64) -> Result<()> {
+        let [bodies, walls] = self.contacts();
+        // (body, sphere, overlap) of each contact that is theirs, at both ends where both are.
+        let mut pressed: Vec<(usize, u32, f64)> = Vec::new();
+        let mut now = 0.0;
+        for (k, c) in bodies.iter().chain(&walls).enumerate() {
+            let ends = [(c.a as usize, c.sphere_a), (c.b as usize, c.sphere_b)];
+            let ends = if k < bodies.len() { &ends[..] } else { &ends[1..] };
+            let own = ends.iter().filter(|e| e.0 >= first);
+            now += if own.clone().count() > 0 { c.energy } else { 0.0 };
+            pressed.extend(own.map(|e| (e.0, e.1, c.overlap)));
+        }
+        if now <= held {
+            return Ok(());
+        }
+        let less = 1.0 - (1.0 - 1e-9) * (held.max(0.0) / now).sqrt();
+        for i in first..self.state.len() {
+            let number = self.state.template[i] as usize;
+            let t = self.state.templates[number].clone();
+            let mut spheres = t.spheres().to_vec();
+            for (k, s) in t.spheres().iter().enumerate() {
+                let own = pressed.iter().filter(|p| p.0 == i && p.1 as usize == k);
+                let deepest = own.map(|p| p.2).fold(0.0, f64::max);
+                let radius = (s.radius - less * deepest).max(1e-3 * s.radius);
+                if let Some(at) = t.order().get(k)
+                    && let Some(slot) = spheres.get_mut(*at as usize)
+                {
+                    *slot = Sphere::new(s.center, radius);
+                }
+            }
+            let smaller = Template::new(&spheres, t.mass(), t.moments())?;
+            self.state.templates[number] = Arc::new(smaller);
+        }
+        self.forget_from(first as u32);
+        Ok(())
+    }
+}
