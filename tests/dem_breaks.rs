@@ -122,7 +122,7 @@ fn pebbles_break_on_impact_and_under_load() {
     let (template, ..) = &*PEBBLE;
     for (threshold, by) in [
         (Threshold::Impulse { limit: 1.5e-3, window: 1e-3 }, BreakBy::Impact(4)),
-        (Threshold::Stress { limit: 5e4 }, BreakBy::Seeded(3)),
+        (Threshold::Stress { limit: 1e4 }, BreakBy::Seeded(3)),
     ] {
         let mut state = State::new(vec![template.clone()]);
         for k in 0..4 {
