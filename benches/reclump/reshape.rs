@@ -3,7 +3,7 @@
 use super::breaks::{Random, mean, median, parent, particles};
 use super::latency::{TIMES, cpu, held, volume};
 use morula::Run;
-use morula::fragment::{Cut, Parent, ShatterOptions, reshape, shatter};
+use morula::fragment::{Cut, CutOptions, Parent, ShatterOptions, cut, reshape, shatter};
 use morula::generate::HalfSpace;
 use std::sync::Arc;
 use std::time::Instant;
@@ -14,6 +14,7 @@ pub fn reshaped(dents: usize) {
     let particles = particles();
     let mut random = Random(4);
     let mut all: Vec<[Vec<f64>; 6]> = vec![Default::default(); 2];
+    let mut apart: Vec<[Vec<f64>; 2]> = vec![Default::default(); 2];
     for (k, (_, solid)) in particles.iter().enumerate() {
         let old = parent(solid);
         let frame = solid.frame();
@@ -41,6 +42,19 @@ pub fn reshaped(dents: usize) {
                     least = least.min(start.elapsed().as_secs_f64());
                     used += (cpu() - before) / TIMES as f64;
                 }
+                // The same where nothing is cut off, and the cut alone.
+                let (mut uncut, mut cutting) = (f64::MAX, f64::MAX);
+                let none = Cut::Within(Vec::new());
+                for _ in 0..TIMES {
+                    let start = Instant::now();
+                    let one = reshape(Arc::clone(solid), &spheres, &held, &none, &options, &run);
+                    uncut = uncut.min(start.elapsed().as_secs_f64());
+                    let start = Instant::now();
+                    let parts = cut(solid, &dent, &CutOptions::default(), &run);
+                    cutting = cutting.min(start.elapsed().as_secs_f64());
+                    std::hint::black_box((one.is_ok(), parts.is_ok()));
+                }
+                apart[i].iter_mut().zip([uncut, cutting]).for_each(|(to, v)| to.push(v * 1e3));
                 let full = shatter(&old, None, &held, &dent, &options, &run).ok();
                 let (Some((_, made)), Some(full)) = (made, full) else { continue };
                 let cover = |f: &morula::fragment::Fragment| {
@@ -55,18 +69,21 @@ pub fn reshaped(dents: usize) {
     println!("{} dents", all[0][0].len());
     println!();
     println!(
-        "| n | median ms | 90 % ms | mean CPU ms | of it getting ready | coverage | with fields | mean \
-         difference | least |"
+        "| n | median ms | 90 % ms | mean CPU ms | of it getting ready | the cut alone | nothing cut off | \
+         coverage | with fields | mean difference | least |"
     );
-    println!("| ---: |{}", " ---: |".repeat(8));
-    for (n, [times, used, ready, own, theirs, less]) in [10, 50].into_iter().zip(&mut all) {
+    println!("| ---: |{}", " ---: |".repeat(10));
+    let rows = [10, 50].into_iter().zip(&mut all).zip(&mut apart);
+    for ((n, [times, used, ready, own, theirs, less]), [uncut, cutting]) in rows {
         let middle = median(times);
         let late = times.get(times.len() * 9 / 10).copied().unwrap_or(0.0);
         let worst = less.iter().copied().fold(f64::MAX, f64::min);
         println!(
-            "| {n} | {middle:.3} | {late:.3} | {:.3} | {:.3} | {:.4} | {:.4} | {:.4} | {worst:.4} |",
+            "| {n} | {middle:.3} | {late:.3} | {:.3} | {:.3} | {:.3} | {:.3} | {:.4} | {:.4} | {:.4} | {worst:.4} |",
             mean(used),
             median(ready),
+            median(cutting),
+            median(uncut),
             mean(own),
             mean(theirs),
             mean(less)
