@@ -57,21 +57,18 @@ fn setup() -> Setup {
     s
 }
 
-fn fragmentation(threshold: Threshold, by: BreakBy) -> Fragmentation {
+fn fragmentation(threshold: Option<Threshold>, by: BreakBy) -> Fragmentation {
     let (_, parent, body) = &*PEBBLE;
     let reclump = ReclumpOptions { spheres: 8, quality: false, ..ReclumpOptions::default() };
     Fragmentation {
         breakable: vec![Breakable { template: 0, parent: parent.clone(), body: *body }],
         threshold,
+        at: Vec::new(),
         by,
         options: ShatterOptions { reclump, ..ShatterOptions::default() },
         generations: 2,
         seed: 5,
     }
-}
-
-fn never() -> Threshold {
-    Threshold::Impulse { limit: 1e9, window: 1e-3 }
 }
 
 /// What holds after every break.
@@ -83,6 +80,10 @@ fn check(e: &Engine) {
         assert!(b.mass.abs() < 1e-15 && b.momentum.norm() < 1e-13, "{b:?}");
         assert!(b.angular_momentum.norm() < 1e-13, "{b:?}");
         assert!(b.fragments.len() > 1, "{b:?}");
+        assert!(b.errors().iter().all(|e| *e < 1e-13), "{b:?}");
+        assert_eq!(b.between.count, 0, "{b:?}");
+        let [whole, pieces] = b.around;
+        assert!(pieces.deepest <= whole.deepest * (1.0 + 1e-9), "{b:?}");
     }
 }
 
@@ -99,7 +100,7 @@ fn a_pebble_breaks_in_free_flight() {
         })
         .unwrap();
     let mut e = Engine::new(setup(), state).unwrap();
-    e.break_by(fragmentation(never(), BreakBy::Seeded(5))).unwrap();
+    e.break_by(fragmentation(None, BreakBy::Seeded(5))).unwrap();
     let run = Run::serial();
     e.advance(10, &run).unwrap();
     e.break_now(0, &run).unwrap();
@@ -121,8 +122,8 @@ fn a_pebble_breaks_in_free_flight() {
 fn pebbles_break_on_impact_and_under_load() {
     let (template, ..) = &*PEBBLE;
     for (threshold, by) in [
-        (Threshold::Impulse { limit: 1.5e-3, window: 1e-3 }, BreakBy::Impact(4)),
-        (Threshold::Stress { limit: 1e4 }, BreakBy::Seeded(3)),
+        (Some(Threshold::Impulse { limit: 1.5e-3, window: 1e-3 }), BreakBy::Impact(4)),
+        (Some(Threshold::Stress { limit: 1e4 }), BreakBy::Seeded(3)),
     ] {
         let mut state = State::new(vec![template.clone()]);
         for k in 0..4 {
@@ -159,7 +160,7 @@ fn what_cannot_break_is_told() {
     let run = Run::serial();
     let error = e.break_now(0, &run).unwrap_err().to_string();
     assert!(error.contains("body 0 cannot break"), "{error}");
-    let mut wrong = fragmentation(Threshold::Stress { limit: 0.0 }, BreakBy::Seeded(3));
+    let mut wrong = fragmentation(Some(Threshold::Stress { limit: 0.0 }), BreakBy::Seeded(3));
     let error = e.break_by(wrong.clone()).unwrap_err().to_string();
     assert!(error.contains("limit of fragmentation is 0"), "{error}");
     wrong.breakable[0].template = 4;

@@ -2,13 +2,13 @@
 
 use super::contact::Calls;
 use super::effects::fragmentation::{
-    BreakRecord, Breaker, Energies, Fragmentation, Pieces, Shard, motion_of,
+    BreakRecord, Breaker, Energies, Fragmentation, Pieces, Shard, Touching, motion_of,
 };
 use super::energy;
 use super::engine::Engine;
 use super::narrow::ContactRecord;
 use super::template::Template;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, push};
 use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::serial::{fragment_from_bytes, fragment_to_bytes};
@@ -32,6 +32,14 @@ struct Kept {
     generation: u32,
 }
 
+/// How many contacts there are, and how deep.
+fn touching<'a>(contacts: impl Iterator<Item = &'a ContactRecord>) -> Touching {
+    contacts.fold(Touching::default(), |t, c| Touching {
+        count: t.count + 1,
+        deepest: t.deepest.max(c.overlap),
+    })
+}
+
 impl Engine {
     /// Lets bodies break. After [`Engine::resume`] with the same fragmentation as before: pieces break on as they
     /// would have.
@@ -39,7 +47,7 @@ impl Engine {
         let mut breaker = Breaker::new(setup, &self.state)?;
         if let Some(broken) = self.broken.take() {
             let damaged = || Error::Format("the checkpoint's pieces do not agree".into());
-            if broken.impulse.len() != self.state.len() {
+            if broken.impulse.len() != breaker.impulse.len() {
                 return Err(damaged());
             }
             breaker.impulse = broken.impulse;
@@ -104,9 +112,9 @@ impl Engine {
 
     /// Breaks what is due.
     pub(super) fn break_due(&mut self, run: &Run) -> Result<()> {
-        let dt = self.setup.dt;
+        let (step, dt) = (self.steps(), self.setup.dt);
         let Some(b) = &mut self.breaker else { return Ok(()) };
-        let due = b.due(&self.state, dt);
+        let due = b.due(&self.state, step, dt);
         // From the last, so that the numbers of those before stay.
         for i in due.into_iter().rev() {
             self.shatter(i, run)?;
@@ -120,18 +128,25 @@ impl Engine {
         Energies { kinetic: a + b, potential: self.potential(), stored }
     }
 
+    /// Mass, momentum, and angular momentum about the origin of body `i` as it stands.
+    fn motion(&self, i: usize) -> (f64, Vec3, Vec3) {
+        let s = &self.state;
+        let push = s.velocity[i] * s.mass(i);
+        (s.mass(i), push, s.momentum[i] + s.position[i].cross(&push))
+    }
+
     fn shatter(&mut self, i: usize, run: &Run) -> Result<()> {
         let [bodies, walls] = self.contacts();
         let of_bodies = bodies.iter().filter(|c| c.a as usize == i || c.b as usize == i);
         let inward = of_bodies
+            .clone()
             .map(|c| (c.overlap, c.point, if c.b as usize == i { c.normal } else { -c.normal }));
         let of_walls = walls.iter().filter(|c| c.b as usize == i);
-        let all = inward.chain(of_walls.map(|c| (c.overlap, c.point, c.normal)));
+        let all = inward.chain(of_walls.clone().map(|c| (c.overlap, c.point, c.normal)));
         let hit = all.max_by(|x, y| x.0.total_cmp(&y.0)).map(|(_, p, n)| (p, n));
         let before = self.energies();
-        let of_it = |c: &&ContactRecord| c.b as usize == i;
-        let held = bodies.iter().filter(|c| c.a as usize == i || of_it(c));
-        let held: f64 = held.chain(walls.iter().filter(of_it)).map(|c| c.energy).sum();
+        let own = of_bodies.chain(of_walls);
+        let (pressed, held) = (touching(own.clone()), own.map(|c| c.energy).sum());
         let Some(breaker) = &mut self.breaker else { return Ok(()) };
         let found = match breaker.pieces(&self.state, i, hit) {
             Ok(p) if p.fragments.len() + p.shattered.dust.len() > 1 => p,
@@ -143,31 +158,19 @@ impl Engine {
             Err(e) => return Err(e.about(&format!("body {}", self.state.label[i]))),
         };
         let Pieces { fragments, shattered } = found;
-        let s = &self.state;
-        let t = s.template_of(i);
-        let at = (s.position[i], s.velocity[i], s.angular_velocity(i));
-        let whole = motion_of(t.mass(), t.moments(), s.orientation[i].quaternion, at);
-        let label = s.label[i];
-        let (mut mass, mut momentum, mut angular) = (-whole.0, -whole.1, -whole.2);
-        let mut add = |m: &crate::fragment::Moving| {
-            let at = (m.position, m.velocity, m.angular_velocity);
-            let own = motion_of(m.mass, m.principal.moments, m.rotation, at);
-            mass += own.0;
-            momentum += own.1;
-            angular += own.2;
-            own.3
-        };
-        shattered.fragments.iter().for_each(|f| {
-            add(&f.moving);
-        });
+        let (whole, label) = (self.motion(i), self.state.label[i]);
         let g = self.setup.gravity.unwrap_or_default();
         let mut dust = Energies::default();
-        let mut lost = 0.0;
+        let mut parts: Vec<(f64, Vec3, Vec3)> = Vec::new();
         for crumb in &shattered.dust {
-            dust.kinetic += add(&crumb.moving);
-            dust.potential -= crumb.moving.mass * g.dot(&crumb.moving.position);
-            lost += crumb.moving.mass;
+            let m = &crumb.moving;
+            let at = (m.position, m.velocity, m.angular_velocity);
+            let own = motion_of(m.mass, m.principal.moments, m.rotation, at);
+            dust.kinetic += own.3;
+            dust.potential -= m.mass * g.dot(&m.position);
+            push("pieces", &mut parts, (own.0, own.1, own.2))?;
         }
+        let lost = parts.iter().map(|p| p.0).sum();
         let energy_in = self.put_in;
         self.remove(label)?;
         let mut labels = Vec::new();
@@ -179,17 +182,26 @@ impl Engine {
             }
             labels.push(self.add(&placed)?);
         }
+        let first = self.state.len() - labels.len();
+        for k in first..self.state.len() {
+            push("pieces", &mut parts, self.motion(k))?;
+        }
         // Nothing is put in by a break, and what dust takes away is gone.
         self.put_in = energy_in - dust.kinetic - dust.potential;
         // Forces of the pieces at this time; springs do not move on.
         let calls: Calls = self.work.calls;
         self.forces(run, 0.0);
-        self.yield_to_neighbours(self.state.len() - labels.len(), held)?;
+        self.yield_to_neighbours(first, held)?;
         self.forces(run, 0.0);
         self.work.calls = calls;
         let mut after = self.energies();
         after.kinetic += dust.kinetic;
         after.potential += dust.potential;
+        let [bodies, walls] = self.contacts();
+        let inner = |c: &&ContactRecord| c.a as usize >= first && c.b as usize >= first;
+        let outer = |c: &&ContactRecord| c.b as usize >= first && (c.a as usize) < first;
+        let around = bodies.iter().filter(outer);
+        let around = around.chain(walls.iter().filter(|c| c.b as usize >= first));
         let record = BreakRecord {
             step: self.steps(),
             label,
@@ -197,12 +209,19 @@ impl Engine {
             dust: lost,
             before,
             after,
-            mass,
-            momentum,
-            angular_momentum: angular,
+            mass: parts.iter().map(|p| p.0).sum::<f64>() - whole.0,
+            momentum: parts.iter().map(|p| p.1).sum::<Vec3>() - whole.1,
+            angular_momentum: parts.iter().map(|p| p.2).sum::<Vec3>() - whole.2,
+            sizes: [
+                parts.iter().map(|p| p.0).sum(),
+                parts.iter().map(|p| p.1.norm()).sum(),
+                parts.iter().map(|p| p.2.norm()).sum(),
+            ],
+            between: touching(bodies.iter().filter(inner)),
+            around: [pressed, touching(around)],
         };
         if let Some(b) = &mut self.breaker {
-            b.log.push(record);
+            push("breaks", &mut b.log, record)?;
         }
         Ok(())
     }

@@ -517,7 +517,7 @@ impl Engine {
             torque: &mut s.torque,
             wall_force: &mut self.wall_force,
             wall_torque: &mut self.wall_torque,
-            load: self.breaker.as_mut().map(|b| {
+            load: self.breaker.as_mut().filter(|b| b.setup.threshold.is_some()).map(|b| {
                 b.load.fill(0.0);
                 b.load.as_mut_slice()
             }),

@@ -5,7 +5,10 @@ use crate::input::parse::whole;
 use crate::progress::Bar;
 use crate::write;
 use morula::dem::Engine;
-use morula::dem::scene::{Over, Place, Scene, Sink, build, parse, play, rows_before};
+use morula::dem::effects::fragmentation::BreakRecord;
+use morula::dem::scene::{
+    BREAK_COLUMNS, Over, Place, Scene, Sink, break_line, build, parse, play, rows_before,
+};
 use morula::error::count;
 use morula::export::save_in;
 use morula::{Error, Result, Run};
@@ -17,7 +20,7 @@ use std::time::Instant;
 /// Simulates rigid clumps as a scene file says: bodies, walls, and the effects that it names and no
 /// others (docs/scenes.md).
 ///
-/// Into DIR go measures.csv, checkpoint.bin and, where the scene asks for them, frame_000000.vtp and so on
+/// Into DIR go measures.csv, checkpoint.bin, breaks.csv of bodies that break and, where the scene asks for them, frame_000000.vtp and so on
 /// for ParaView.
 #[derive(clap::Args)]
 pub struct Args {
@@ -79,7 +82,7 @@ pub fn run(args: &Args) -> Done {
     let start = Instant::now();
     let over = play(&mut scene, &mut out, &run).about(&args.scene)?;
     let seconds = start.elapsed().as_secs_f64();
-    out.close()?;
+    out.flush().about(&args.scene)?;
     drop(bar);
     if args.quiet {
         return Ok(());
@@ -87,45 +90,85 @@ pub fn run(args: &Args) -> Done {
     summary(&scene, over, seconds)
 }
 
+/// A table that grows while it runs.
+struct Csv {
+    path: PathBuf,
+    to: BufWriter<File>,
+}
+
+impl Csv {
+    /// With the lines of an old one, in their order, for which `keep` is true where it goes on.
+    fn new(
+        folder: &Path,
+        name: &str,
+        head: &str,
+        keep: Option<&dyn Fn(usize, &str) -> bool>,
+    ) -> Done<Csv> {
+        let path = folder.join(name);
+        let mut kept = String::new();
+        if let Some(keep) = keep {
+            let old = std::fs::read_to_string(&path).map_err(|e| Fail::file(&path, e))?;
+            let lines = old.lines().skip(1).enumerate().filter(|(i, l)| keep(*i, l));
+            kept = lines.map(|(_, l)| format!("{l}\n")).collect();
+        }
+        let file = File::create(&path).map_err(|e| Fail::file(&path, e))?;
+        let mut to = BufWriter::new(file);
+        write!(to, "{head}\n{kept}").map_err(|e| Fail::file(&path, e))?;
+        Ok(Csv { path, to })
+    }
+
+    fn line(&mut self, line: &str) -> Result<()> {
+        writeln!(self.to, "{line}").map_err(|e| io(&self.path, &e))
+    }
+}
+
 /// What the run writes.
 struct Out<'a> {
-    measures: Option<(PathBuf, BufWriter<File>)>,
+    measures: Option<Csv>,
+    breaks: Option<Csv>,
     folder: Option<PathBuf>,
+    dt: f64,
     bar: &'a Bar,
     start: Instant,
     /// Steps when it began.
     first: u64,
 }
 
+/// Whether a line that begins with its step is of a run up to `steps`.
+fn until(steps: u64) -> impl Fn(usize, &str) -> bool {
+    move |_, line| {
+        let step = line.split(',').next().and_then(|s| s.parse::<u64>().ok());
+        step.is_some_and(|s| s <= steps)
+    }
+}
+
 impl<'a> Out<'a> {
     fn new(args: &Args, scene: &Scene, bar: &'a Bar) -> Done<Out<'a>> {
         let folder = args.output.as_ref().map(PathBuf::from);
-        let mut measures = None;
+        let (first, dt) = (scene.engine.steps(), scene.engine.setup().dt);
+        let (mut measures, mut breaks) = (None, None);
         if let Some(folder) = &folder {
             std::fs::create_dir_all(folder).map_err(|e| Fail::file(folder, e))?;
-            let path = folder.join("measures.csv");
             // Of a run that goes on, the lines up to the checkpoint stay.
-            let kept = if args.resume {
-                let old = std::fs::read_to_string(&path).map_err(|e| Fail::file(&path, e))?;
-                let rows = rows_before(scene, scene.engine.steps()) as usize;
-                old.lines().skip(1).take(rows).map(|l| format!("{l}\n")).collect()
-            } else {
-                String::new()
-            };
-            let file = File::create(&path).map_err(|e| Fail::file(&path, e))?;
-            let mut to = BufWriter::new(file);
+            let rows = rows_before(scene, first) as usize;
+            let early = move |i: usize, _: &str| i < rows;
+            let until = until(first);
+            let old = |keep| args.resume.then_some(keep);
             let names = scene.watch.names().join(",");
-            write!(to, "{names}\n{kept}").map_err(|e| Fail::file(&path, e))?;
-            measures = Some((path, to));
+            measures =
+                Some(Csv::new(folder, "measures.csv", &names, old(&early as &dyn Fn(_, &_) -> _))?);
+            if scene.fragmentation.is_some() {
+                breaks = Some(Csv::new(folder, "breaks.csv", BREAK_COLUMNS, old(&until))?);
+            }
         }
-        Ok(Out { measures, folder, bar, start: Instant::now(), first: scene.engine.steps() })
+        Ok(Out { measures, breaks, folder, dt, bar, start: Instant::now(), first })
     }
 
-    fn close(&mut self) -> Done {
-        match &mut self.measures {
-            Some((path, to)) => to.flush().map_err(|e| Fail::file(path, e)),
-            None => Ok(()),
+    fn flush(&mut self) -> Result<()> {
+        for csv in [&mut self.measures, &mut self.breaks].into_iter().flatten() {
+            csv.to.flush().map_err(|e| io(&csv.path, &e))?;
         }
+        Ok(())
     }
 }
 
@@ -135,10 +178,14 @@ fn io(path: &Path, e: &std::io::Error) -> Error {
 
 impl Sink for Out<'_> {
     fn row(&mut self, values: &[Option<f64>]) -> Result<()> {
-        let Some((path, to)) = &mut self.measures else { return Ok(()) };
         let text: Vec<String> =
             values.iter().map(|v| v.map_or(String::new(), |v| format!("{v:?}"))).collect();
-        writeln!(to, "{}", text.join(",")).map_err(|e| io(path, &e))
+        self.measures.as_mut().map_or(Ok(()), |csv| csv.line(&text.join(",")))
+    }
+
+    fn broke(&mut self, record: &BreakRecord) -> Result<()> {
+        let line = break_line(record, self.dt);
+        self.breaks.as_mut().map_or(Ok(()), |csv| csv.line(&line))
     }
 
     fn frame(&mut self, number: u64, vtp: &str) -> Result<()> {
@@ -148,11 +195,9 @@ impl Sink for Out<'_> {
     }
 
     fn checkpoint(&mut self, _: u64, bytes: &[u8]) -> Result<()> {
+        // What stands in the tables then is as old as the checkpoint.
+        self.flush()?;
         let Some(folder) = &self.folder else { return Ok(()) };
-        // What stands in measures.csv then is as old as the checkpoint.
-        if let Some((path, to)) = &mut self.measures {
-            to.flush().map_err(|e| io(path, &e))?;
-        }
         save_in(folder, &[(CHECKPOINT.to_owned(), bytes.to_vec())])
     }
 
@@ -200,6 +245,10 @@ fn summary(scene: &Scene, over: Over, seconds: f64) -> Done {
                 Some(value) => writeln!(out, "{name:>20}  {value:.6e}")?,
                 None => writeln!(out, "{name:>20}  -")?,
             }
+        }
+        if !engine.breaks().is_empty() {
+            let n = engine.breaks().len() as u64;
+            writeln!(out, "{} since this run began", count(n, "break"))?;
         }
         let named = engine.effects().into_iter().filter(|e| e.calls > 0 || e.bytes > 0);
         for e in named {

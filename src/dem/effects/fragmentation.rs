@@ -59,8 +59,11 @@ pub struct Breakable {
 pub struct Fragmentation {
     /// What breaks.
     pub breakable: Vec<Breakable>,
-    /// When.
-    pub threshold: Threshold,
+    /// When; without it at the given steps alone, and loads are neither kept nor looked at.
+    pub threshold: Option<Threshold>,
+    /// Bodies that break at a step whatever their load, by (step, label); what is not there then, or is no whole body and
+    /// may not break again, does not.
+    pub at: Vec<(u64, u64)>,
     /// How.
     pub by: BreakBy,
     /// Pieces and their spheres.
@@ -89,6 +92,15 @@ impl Energies {
     }
 }
 
+/// Contacts: how many, and the deepest overlap.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Touching {
+    /// How many.
+    pub count: usize,
+    /// The deepest; 0 where there is none.
+    pub deepest: f64,
+}
+
 /// One break. What is before is of the whole bed, what is after too, dust included.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BreakRecord {
@@ -104,12 +116,32 @@ pub struct BreakRecord {
     pub before: Energies,
     /// Energies after, those of the dust among them.
     pub after: Energies,
-    /// Masses, momenta and angular momenta about the origin of all pieces less those of the body.
+    /// Masses, momenta and angular momenta about the origin of all pieces as they stand, dust among them, less those
+    /// of the body.
     pub mass: f64,
     /// As above.
     pub momentum: Vec3,
     /// As above.
     pub angular_momentum: Vec3,
+    /// What these are to be seen beside: the sums of the sizes of the pieces' own.
+    pub sizes: [f64; 3],
+    /// Contacts of its fragments with each other.
+    pub between: Touching,
+    /// Contacts of the body with its neighbours and walls, and those of its fragments.
+    pub around: [Touching; 2],
+}
+
+impl BreakRecord {
+    /// Errors of mass, momentum and angular momentum, relative; 0 where nothing moves.
+    pub fn errors(&self) -> [f64; 3] {
+        let [m, p, l] = self.sizes;
+        let part = |error: f64, size: f64| if size > 0.0 { error / size } else { 0.0 };
+        [
+            part(self.mass.abs(), m),
+            part(self.momentum.norm(), p),
+            part(self.angular_momentum.norm(), l),
+        ]
+    }
 }
 
 /// What a template is a piece of.
@@ -162,8 +194,9 @@ impl Breaker {
                 Some(Shard { parent: k, region: None, center: b.body.center, axes, generation: 0 });
         }
         let (limit, window) = match setup.threshold {
-            Threshold::Impulse { limit, window } => (limit, window),
-            Threshold::Stress { limit } => (limit, 1.0),
+            Some(Threshold::Impulse { limit, window }) => (limit, window),
+            Some(Threshold::Stress { limit }) => (limit, 1.0),
+            None => (1.0, 1.0),
         };
         for (what, v) in [("limit", limit), ("window", window)] {
             if !(v.is_finite() && v > 0.0) {
@@ -173,34 +206,40 @@ impl Breaker {
                 )));
             }
         }
-        let n = state.len();
+        let n = if setup.threshold.is_some() { state.len() } else { 0 };
         let (load, impulse) = (vec![0.0; n], vec![0.0; n]);
         Ok(Breaker { setup, shards, load, impulse, log: Vec::new(), calls: 0 })
     }
 
     /// Bodies that break in this step, by their numbers.
-    pub fn due(&mut self, state: &State, dt: f64) -> Vec<usize> {
-        self.calls += state.len() as u64;
+    pub fn due(&mut self, state: &State, step: u64, dt: f64) -> Vec<usize> {
         let mut found = Vec::new();
-        for i in 0..state.len() {
-            let load = self.load[i];
-            let over = match self.setup.threshold {
-                Threshold::Impulse { limit, window } => {
-                    let own = &mut self.impulse[i];
-                    *own = *own * (-dt / window).exp() + load * dt;
-                    *own > limit
+        let at = self.setup.at.iter().filter(|a| a.0 == step);
+        found.extend(at.filter_map(|a| state.label.binary_search(&a.1).ok()));
+        if let Some(threshold) = self.setup.threshold {
+            self.calls += state.len() as u64;
+            found.extend((0..state.len()).filter(|&i| {
+                let load = self.load[i];
+                match threshold {
+                    Threshold::Impulse { limit, window } => {
+                        let own = &mut self.impulse[i];
+                        *own = *own * (-dt / window).exp() + load * dt;
+                        *own > limit
+                    }
+                    Threshold::Stress { limit } => {
+                        let r = super::drag::radius(state.template_of(i));
+                        load > 2.0 * limit * std::f64::consts::PI * r * r
+                    }
                 }
-                Threshold::Stress { limit } => {
-                    let r = super::drag::radius(state.template_of(i));
-                    load > 2.0 * limit * std::f64::consts::PI * r * r
-                }
-            };
-            let shard = self.shards.get(state.template[i] as usize).and_then(|s| s.as_ref());
-            let again = shard.is_some_and(|s| s.generation < self.setup.generations);
-            if over && again && !state.fixed[i] {
-                found.push(i);
-            }
+            }));
         }
+        found.sort_unstable();
+        found.dedup();
+        let again = |i: &usize| {
+            let shard = self.shards.get(state.template[*i] as usize).and_then(|s| s.as_ref());
+            shard.is_some_and(|s| s.generation < self.setup.generations) && !state.fixed[*i]
+        };
+        found.retain(again);
         found
     }
 
@@ -265,14 +304,18 @@ impl Breaker {
 
     /// A body has come.
     pub fn add(&mut self) {
-        self.load.push(0.0);
-        self.impulse.push(0.0);
+        if self.setup.threshold.is_some() {
+            self.load.push(0.0);
+            self.impulse.push(0.0);
+        }
     }
 
     /// A body has gone.
     pub fn remove(&mut self, i: usize) {
-        self.load.remove(i);
-        self.impulse.remove(i);
+        if self.setup.threshold.is_some() {
+            self.load.remove(i);
+            self.impulse.remove(i);
+        }
     }
 
     pub fn bytes(&self) -> u64 {

@@ -1,10 +1,12 @@
 //! From what a file says to an engine that is ready to run.
 
 use super::file::*;
+use super::fragmentation::{breaks, fragmentation, with_pieces};
 use super::materials::{coefficients, known};
 use super::templates::{Made, Source, make};
 use super::watch::Watch;
 use crate::dem::advice::advise;
+use crate::dem::effects::fragmentation::Fragmentation;
 use crate::dem::{
     Coefficients, CohesionLaw, DampingLaw, Engine, Laws, NormalLaw, Placed, Setup, State,
     TangentialLaw, WallMotion, WallSetup, WallShape,
@@ -23,6 +25,8 @@ pub struct Scene {
     pub engine: Engine,
     /// What its bodies are made of.
     pub templates: Vec<Made>,
+    /// What of it breaks.
+    pub fragmentation: Option<Fragmentation>,
     /// Beyond this time step the worst of its clumps gains energy without bound; `None` without contacts.
     pub limit: Option<f64>,
     /// When it ends.
@@ -53,7 +57,7 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
     let mut templates: Vec<Made> = Vec::new();
     for (k, (name, part)) in file.templates.iter().enumerate() {
         run.check(k as f64 / file.templates.len() as f64, "making clumps")?;
-        push("templates", &mut templates, make(name, part, folder, run)?)?;
+        push("templates", &mut templates, make(name, part, breaks(file, name), folder, run)?)?;
     }
     let materials: Result<Vec<u32>> = file
         .templates
@@ -85,7 +89,10 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
     refuse_idle(file, &templates, &state, &walls, &coefficients)?;
     let r = &file.run;
     let advice = match &laws {
-        Some(laws) => advise(laws, &coefficients, &state, r.speed, r.contacts)?,
+        Some(laws) => {
+            let all = with_pieces(file, &templates)?;
+            advise(laws, &coefficients, &all, r.speed, r.contacts)?
+        }
         None => None,
     };
     let limit = advice.map(|a| a.limit);
@@ -155,7 +162,11 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
             )));
         }
     }
+    let fragmentation = fragmentation(file, &templates, &state, laws.as_ref(), dt, run)?;
     let mut engine = Engine::new(setup, state)?;
+    if let Some(f) = &fragmentation {
+        engine.break_by(f.clone())?;
+    }
     engine.start(run)?;
     refuse_overlap(&engine, r.overlap)?;
     let coming: u64 = file.insertion.iter().map(|i| i.total).sum();
@@ -165,6 +176,7 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
         title: file.title.clone(),
         engine,
         templates,
+        fragmentation,
         limit,
         end: r.end,
         rest: r.rest,
@@ -246,7 +258,8 @@ fn refuse_idle(
             return no("gravity", "every body is fixed");
         }
     }
-    if e.normal.is_some() && (state.len() + walls.len()) as u64 + coming < 2 {
+    let alone = (state.len() + walls.len()) as u64 + coming < 2;
+    if e.normal.is_some() && alone && file.fragmentation.is_none() {
         return no("normal", "there are no two things that could touch");
     }
     let zero = |of: &dyn Fn(&Coefficients) -> f64| coefficients.iter().all(|c| of(c) == 0.0);
@@ -276,7 +289,11 @@ fn refuse_idle(
 impl Scene {
     /// Goes on from a checkpoint of this scene. Refused: what [`Engine::resume`] refuses.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<()> {
-        self.engine = Engine::resume(self.engine.setup().clone(), checkpoint)?;
+        let mut engine = Engine::resume(self.engine.setup().clone(), checkpoint)?;
+        if let Some(f) = &self.fragmentation {
+            engine.break_by(f.clone())?;
+        }
+        self.engine = engine;
         Ok(())
     }
 }

@@ -33,6 +33,8 @@ pub struct SceneFile {
     /// Walls, in order.
     #[serde(default)]
     pub walls: Vec<WallPart>,
+    /// Bodies that break.
+    pub fragmentation: Option<super::fragmentation::FragmentationPart>,
     /// What is written down.
     #[serde(default)]
     pub output: OutputPart,

@@ -2,6 +2,7 @@
 
 mod build;
 pub mod file;
+pub mod fragmentation;
 mod frames;
 mod keys;
 mod materials;
@@ -11,6 +12,7 @@ mod watch;
 
 pub use build::{Scene, build};
 pub use file::SceneFile;
+pub use fragmentation::{BREAK_COLUMNS, break_line};
 pub use keys::parse;
 pub use play::{Over, Place, Sink, play, rows_before};
 pub use templates::Made;

@@ -2,6 +2,7 @@
 
 use super::Scene;
 use super::frames::frame;
+use crate::dem::effects::fragmentation::BreakRecord;
 use crate::dem::energy;
 use crate::error::Result;
 use crate::run::Run;
@@ -28,6 +29,10 @@ pub trait Sink {
     fn frame(&mut self, number: u64, vtp: &str) -> Result<()>;
     /// A checkpoint after so many steps.
     fn checkpoint(&mut self, steps: u64, bytes: &[u8]) -> Result<()>;
+    /// A body has broken.
+    fn broke(&mut self, _: &BreakRecord) -> Result<()> {
+        Ok(())
+    }
     /// Asked now and then; what it returns says whether to go on.
     fn at(&mut self, place: &Place) -> bool;
 }
@@ -60,6 +65,7 @@ pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
             sink.frame(0, &frame(&scene.engine))?;
         }
     }
+    let mut told = scene.engine.breaks().len();
     let mut contacts = scene.engine.work().contacts;
     let mut over = Over::End;
     while scene.engine.steps() < last {
@@ -67,7 +73,12 @@ pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
         let next = |period: Option<u64>| period.map_or(last, |p| (at / p + 1) * p);
         let to =
             last.min(next(every)).min(next(frames)).min(next(kept)).min((at / LOOK + 1) * LOOK);
-        scene.engine.advance(to - at, run)?;
+        let advanced = scene.engine.advance(to - at, run);
+        for b in scene.engine.breaks().iter().skip(told) {
+            sink.broke(b)?;
+        }
+        told = scene.engine.breaks().len();
+        advanced?;
         let due = |period: Option<u64>| period.is_some_and(|p| to.is_multiple_of(p));
         if due(every) && to < last {
             sink.row(&scene.watch.row(&scene.engine))?;

@@ -13,7 +13,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// A template with what it stands for.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Made {
     /// Its name in the scene.
     pub name: String,
@@ -23,10 +23,18 @@ pub struct Made {
     pub spheres: Vec<Sphere>,
     /// The body.
     pub body: Body,
+    /// The solid and the spheres, both in the frame of the shape: kept where an effect asks for them.
+    pub source: Option<(Arc<Solid>, Vec<Sphere>)>,
 }
 
-/// Makes the template of this name; `folder` is where its file is looked for.
-pub(super) fn make(name: &str, part: &TemplatePart, folder: &Path, run: &Run) -> Result<Made> {
+/// Makes the template of this name; `folder` is where its file is looked for. With `keep` its solid stays.
+pub(super) fn make(
+    name: &str,
+    part: &TemplatePart,
+    keep: bool,
+    folder: &Path,
+    run: &Run,
+) -> Result<Made> {
     let bad = |what: String| Err(Error::InvalidArgument(format!("the template {name} {what}")));
     let choices = [part.ball.is_some(), part.shape.is_some(), part.file.is_some()];
     if choices.iter().filter(|c| **c).count() != 1 {
@@ -43,7 +51,7 @@ pub(super) fn make(name: &str, part: &TemplatePart, folder: &Path, run: &Run) ->
         let spheres = vec![Sphere::new(crate::math::Vec3::zeros(), radius)];
         let template = Arc::new(Template::ball(radius, part.density).map_err(whose)?);
         let body = Body::of_union(&spheres, part.density, run).map_err(whose)?;
-        return Ok(Made { name: name.to_owned(), template, spheres, body });
+        return Ok(Made { name: name.to_owned(), template, spheres, body, source: None });
     }
     let source = Source {
         shape: part.shape.as_deref(),
@@ -82,7 +90,9 @@ pub(super) fn make(name: &str, part: &TemplatePart, folder: &Path, run: &Run) ->
     };
     let body = Body::new(target, &solid, &clump.spheres, part.density, run).map_err(whose)?;
     let template = Arc::new(Template::of_body(&clump.spheres, &body).map_err(whose)?);
-    Ok(Made { name: name.to_owned(), template, spheres: body.to_body(&clump.spheres), body })
+    let spheres = body.to_body(&clump.spheres);
+    let source = keep.then(|| (Arc::new(solid), clump.spheres));
+    Ok(Made { name: name.to_owned(), template, spheres, body, source })
 }
 
 /// A file or a built-in particle.
