@@ -13,6 +13,7 @@ use crate::math::{Sphere, Vec3};
 use crate::run::Run;
 use crate::serial::{fragment_from_bytes, fragment_to_bytes};
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What a checkpoint keeps of breakage.
@@ -38,6 +39,26 @@ fn touching<'a>(contacts: impl Iterator<Item = &'a ContactRecord>) -> Touching {
         count: t.count + 1,
         deepest: t.deepest.max(c.overlap),
     })
+}
+
+/// Mass, momentum, and angular momentum about the origin.
+pub(super) type Motion = (f64, Vec3, Vec3);
+
+/// What parts have more than the whole, and the sums of the sizes of their own.
+pub(super) fn differences(parts: &[Motion], whole: &Motion) -> (Motion, [f64; 3]) {
+    let mass: f64 = parts.iter().map(|p| p.0).sum();
+    let push: Vec3 = parts.iter().map(|p| p.1).sum();
+    let turn: Vec3 = parts.iter().map(|p| p.2).sum();
+    let sizes =
+        [mass, parts.iter().map(|p| p.1.norm()).sum(), parts.iter().map(|p| p.2.norm()).sum()];
+    ((mass - whole.0, push - whole.1, turn - whole.2), sizes)
+}
+
+/// The same as parts of those sizes; 0 where nothing moves.
+pub(super) fn errors((mass, push, turn): &Motion, sizes: &[f64; 3]) -> [f64; 3] {
+    let [m, p, l] = *sizes;
+    let part = |error: f64, size: f64| if size > 0.0 { error / size } else { 0.0 };
+    [part(mass.abs(), m), part(push.norm(), p), part(turn.norm(), l)]
 }
 
 impl Engine {
@@ -122,31 +143,38 @@ impl Engine {
         Ok(())
     }
 
-    fn energies(&self) -> Energies {
+    pub(super) fn energies(&self) -> Energies {
         let [a, b] = energy::kinetic(&self.state);
-        let stored = self.contacts().iter().flatten().map(|c| c.energy).sum();
+        let stored = self.contacts().iter().flatten().map(|c| c.energy).fold(0.0, |a, b| a + b);
         Energies { kinetic: a + b, potential: self.potential(), stored }
     }
 
-    /// Mass, momentum, and angular momentum about the origin of body `i` as it stands.
-    fn motion(&self, i: usize) -> (f64, Vec3, Vec3) {
+    /// That of body `i` as it stands.
+    pub(super) fn motion(&self, i: usize) -> Motion {
         let s = &self.state;
         let push = s.velocity[i] * s.mass(i);
         (s.mass(i), push, s.momentum[i] + s.position[i].cross(&push))
+    }
+
+    /// Contacts of these bodies with others and with walls: how many, how deep, and what their springs hold.
+    pub(super) fn around(&self, those: Range<usize>) -> (Touching, f64) {
+        let [bodies, walls] = self.contacts();
+        let own = |i: u32| those.contains(&(i as usize));
+        let all = bodies.iter().filter(|c| own(c.a) != own(c.b));
+        let all = all.chain(walls.iter().filter(|c| own(c.b)));
+        (touching(all.clone()), all.map(|c| c.energy).sum())
     }
 
     fn shatter(&mut self, i: usize, run: &Run) -> Result<()> {
         let [bodies, walls] = self.contacts();
         let of_bodies = bodies.iter().filter(|c| c.a as usize == i || c.b as usize == i);
         let inward = of_bodies
-            .clone()
             .map(|c| (c.overlap, c.point, if c.b as usize == i { c.normal } else { -c.normal }));
         let of_walls = walls.iter().filter(|c| c.b as usize == i);
-        let all = inward.chain(of_walls.clone().map(|c| (c.overlap, c.point, c.normal)));
+        let all = inward.chain(of_walls.map(|c| (c.overlap, c.point, c.normal)));
         let hit = all.max_by(|x, y| x.0.total_cmp(&y.0)).map(|(_, p, n)| (p, n));
         let before = self.energies();
-        let own = of_bodies.chain(of_walls);
-        let (pressed, held) = (touching(own.clone()), own.map(|c| c.energy).sum());
+        let (pressed, held) = self.around(i..i + 1);
         let Some(breaker) = &mut self.breaker else { return Ok(()) };
         let found = match breaker.pieces(&self.state, i, hit) {
             Ok(p) if p.fragments.len() + p.shattered.dust.len() > 1 => p,
@@ -170,7 +198,7 @@ impl Engine {
             dust.potential -= m.mass * g.dot(&m.position);
             push("pieces", &mut parts, (own.0, own.1, own.2))?;
         }
-        let lost = parts.iter().map(|p| p.0).sum();
+        let lost = parts.iter().fold(0.0, |sum, p| sum + p.0);
         let energy_in = self.put_in;
         self.remove(label)?;
         let mut labels = Vec::new();
@@ -188,20 +216,14 @@ impl Engine {
         }
         // Nothing is put in by a break, and what dust takes away is gone.
         self.put_in = energy_in - dust.kinetic - dust.potential;
-        // Forces of the pieces at this time; springs do not move on.
-        let calls: Calls = self.work.calls;
-        self.forces(run, 0.0);
-        self.yield_to_neighbours(first, held)?;
-        self.forces(run, 0.0);
-        self.work.calls = calls;
+        let pieces = first..self.state.len();
+        self.settle(pieces.clone(), held, run)?;
         let mut after = self.energies();
         after.kinetic += dust.kinetic;
         after.potential += dust.potential;
-        let [bodies, walls] = self.contacts();
-        let inner = |c: &&ContactRecord| c.a as usize >= first && c.b as usize >= first;
-        let outer = |c: &&ContactRecord| c.b as usize >= first && (c.a as usize) < first;
-        let around = bodies.iter().filter(outer);
-        let around = around.chain(walls.iter().filter(|c| c.b as usize >= first));
+        let bodies = &self.contacts()[0];
+        let own = |c: &&ContactRecord| c.a as usize >= first && c.b as usize >= first;
+        let ((mass, momentum, angular_momentum), sizes) = differences(&parts, &whole);
         let record = BreakRecord {
             step: self.steps(),
             label,
@@ -209,16 +231,12 @@ impl Engine {
             dust: lost,
             before,
             after,
-            mass: parts.iter().map(|p| p.0).sum::<f64>() - whole.0,
-            momentum: parts.iter().map(|p| p.1).sum::<Vec3>() - whole.1,
-            angular_momentum: parts.iter().map(|p| p.2).sum::<Vec3>() - whole.2,
-            sizes: [
-                parts.iter().map(|p| p.0).sum(),
-                parts.iter().map(|p| p.1.norm()).sum(),
-                parts.iter().map(|p| p.2.norm()).sum(),
-            ],
-            between: touching(bodies.iter().filter(inner)),
-            around: [pressed, touching(around)],
+            mass,
+            momentum,
+            angular_momentum,
+            sizes,
+            between: touching(bodies.iter().filter(own)),
+            around: [pressed, self.around(pieces).0],
         };
         if let Some(b) = &mut self.breaker {
             push("breaks", &mut b.log, record)?;
@@ -226,10 +244,19 @@ impl Engine {
         Ok(())
     }
 
-    /// Where more springs of the bodies from number `first` on are pressed than were before, and hold more energy than
-    /// `held`, the spheres that press are made smaller by a part of their overlaps: with overlaps s times
+    /// Forces of bodies that are new at this time, whose springs held `held` before; springs do not move on.
+    pub(super) fn settle(&mut self, those: Range<usize>, held: f64, run: &Run) -> Result<()> {
+        let calls: Calls = self.work.calls;
+        self.forces(run, 0.0);
+        self.yield_to_neighbours(those, held)?;
+        self.forces(run, 0.0);
+        self.work.calls = calls;
+        Ok(())
+    }
+
+    /// Where more springs of these bodies are pressed than were before, and hold more energy than `held`, the spheres that press are made smaller by a part of their overlaps: with overlaps s times
     /// as deep no spring holds more than s² times as much.
-    fn yield_to_neighbours(&mut self, first: usize, held: f64) -> Result<()> {
+    fn yield_to_neighbours(&mut self, those: Range<usize>, held: f64) -> Result<()> {
         let [bodies, walls] = self.contacts();
         // (body, sphere, overlap) of each contact that is theirs, at both ends where both are.
         let mut pressed: Vec<(usize, u32, f64)> = Vec::new();
@@ -237,7 +264,7 @@ impl Engine {
         for (k, c) in bodies.iter().chain(&walls).enumerate() {
             let ends = [(c.a as usize, c.sphere_a), (c.b as usize, c.sphere_b)];
             let ends = if k < bodies.len() { &ends[..] } else { &ends[1..] };
-            let own = ends.iter().filter(|e| e.0 >= first);
+            let own = ends.iter().filter(|e| those.contains(&e.0));
             now += if own.clone().count() > 0 { c.energy } else { 0.0 };
             pressed.extend(own.map(|e| (e.0, e.1, c.overlap)));
         }
@@ -245,7 +272,7 @@ impl Engine {
             return Ok(());
         }
         let less = 1.0 - (1.0 - 1e-9) * (held.max(0.0) / now).sqrt();
-        for i in first..self.state.len() {
+        for i in those.clone() {
             let number = self.state.template[i] as usize;
             let t = self.state.templates[number].clone();
             let mut spheres = t.spheres().to_vec();
@@ -262,7 +289,7 @@ impl Engine {
             let smaller = Template::new(&spheres, t.mass(), t.moments())?;
             self.state.templates[number] = Arc::new(smaller);
         }
-        self.forget_from(first as u32);
+        self.forget(those);
         Ok(())
     }
 }

@@ -7,6 +7,7 @@ use super::effects::cohesion::jkr_range;
 use super::effects::drag::{self, Drag};
 use super::effects::fragmentation::Breaker;
 use super::effects::insertion::Insertion;
+use super::effects::wear::{Wearer, Worn};
 use super::effects::{Coefficients, gravity};
 use super::energy;
 use super::integrate;
@@ -124,6 +125,8 @@ pub struct Engine {
     pub(super) breaker: Option<Breaker>,
     /// What a checkpoint said of pieces, until it is asked for.
     pub(super) broken: Option<Broken>,
+    pub(super) wearer: Option<Wearer>,
+    pub(super) worn: Option<Vec<Worn>>,
 }
 
 struct Make;
@@ -209,6 +212,8 @@ impl Engine {
             started: false,
             breaker: None,
             broken: None,
+            wearer: None,
+            worn: None,
         })
     }
 
@@ -317,10 +322,11 @@ impl Engine {
         Ok(())
     }
 
-    /// Forgets all contacts of the bodies from this number on.
-    pub(super) fn forget_from(&mut self, first: u32) {
-        self.broad.pairs.retain(|p| p.b < first);
-        self.wall_pairs.retain(|p| p.b < first);
+    /// Forgets all contacts of these bodies.
+    pub(super) fn forget(&mut self, those: std::ops::Range<usize>) {
+        let own = |i: u32| those.contains(&(i as usize));
+        self.broad.pairs.retain(|p| !own(p.a) && !own(p.b));
+        self.wall_pairs.retain(|p| !own(p.b));
         self.broad.forget();
     }
 
@@ -395,6 +401,11 @@ impl Engine {
                 self.breaker.as_ref().map_or(0, |b| b.calls),
                 self.breaker.as_ref().map_or(0, Breaker::bytes),
             ),
+            (
+                "wear",
+                self.wearer.as_ref().map_or(0, |w| w.calls),
+                self.wearer.as_ref().map_or(0, Wearer::bytes),
+            ),
         ]
         .map(|(name, calls, bytes)| EffectReport { name, calls, bytes })
         .to_vec()
@@ -413,6 +424,7 @@ impl Engine {
             wall_force: self.wall_force.clone(),
             wall_torque: self.wall_torque.clone(),
             broken: self.broken()?,
+            worn: self.wearer.as_ref().map(|w| w.worn.clone()),
         }
         .to_bytes()
     }
@@ -440,7 +452,7 @@ impl Engine {
         for wall in &mut engine.walls {
             wall.to(time, dt);
         }
-        engine.broken = s.broken;
+        (engine.broken, engine.worn) = (s.broken, s.worn);
         engine.started = true;
         Ok(engine)
     }
@@ -467,6 +479,9 @@ impl Engine {
         }
         if self.breaker.is_some() {
             self.break_due(run)?;
+        }
+        if self.wearer.is_some() {
+            self.wear_due(run)?;
         }
         self.insert()?;
         if self.setup.guard && self.step.is_multiple_of(GUARD) {

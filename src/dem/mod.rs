@@ -25,6 +25,7 @@ pub mod tablet;
 pub mod template;
 mod tree;
 pub mod walls;
+mod wearing;
 
 pub use contact::{CohesionLaw, DampingLaw, Laws, NormalLaw, TangentialLaw};
 pub use effects::Coefficients;

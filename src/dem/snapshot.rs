@@ -3,6 +3,7 @@
 
 use super::breaking::Broken;
 use super::effects::averaging::Average;
+use super::effects::wear::Worn;
 use super::narrow::Pair;
 use super::rotate::Orientation;
 use super::state::{Kin, State};
@@ -15,7 +16,7 @@ use std::sync::Arc;
 /// What the first bytes of a checkpoint are.
 const MAGIC: &[u8; 8] = b"MORULADE";
 /// Checkpoints of another number are not read.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// A template, its spheres as they were handed in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -65,6 +66,7 @@ pub(crate) struct Snapshot {
     pub wall_force: Vec<Vec3>,
     pub wall_torque: Vec<Vec3>,
     pub broken: Option<Broken>,
+    pub worn: Option<Vec<Worn>>,
 }
 
 impl Snapshot {

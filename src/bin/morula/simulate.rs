@@ -6,8 +6,10 @@ use crate::progress::Bar;
 use crate::write;
 use morula::dem::Engine;
 use morula::dem::effects::fragmentation::BreakRecord;
+use morula::dem::effects::wear::WearRecord;
 use morula::dem::scene::{
-    BREAK_COLUMNS, Over, Place, Scene, Sink, break_line, build, parse, play, rows_before,
+    BREAK_COLUMNS, Over, Place, Scene, Sink, WEAR_COLUMNS, break_line, build, parse, play,
+    rows_before, wear_line,
 };
 use morula::error::count;
 use morula::export::save_in;
@@ -20,7 +22,7 @@ use std::time::Instant;
 /// Simulates rigid clumps as a scene file says: bodies, walls, and the effects that it names and no
 /// others (docs/scenes.md).
 ///
-/// Into DIR go measures.csv, checkpoint.bin, breaks.csv of bodies that break and, where the scene asks for them, frame_000000.vtp and so on
+/// Into DIR go measures.csv, checkpoint.bin, breaks.csv and wear.csv of bodies that break or wear and, where the scene asks for them, frame_000000.vtp and so on
 /// for ParaView.
 #[derive(clap::Args)]
 pub struct Args {
@@ -126,6 +128,7 @@ impl Csv {
 struct Out<'a> {
     measures: Option<Csv>,
     breaks: Option<Csv>,
+    wear: Option<Csv>,
     folder: Option<PathBuf>,
     dt: f64,
     bar: &'a Bar,
@@ -146,7 +149,7 @@ impl<'a> Out<'a> {
     fn new(args: &Args, scene: &Scene, bar: &'a Bar) -> Done<Out<'a>> {
         let folder = args.output.as_ref().map(PathBuf::from);
         let (first, dt) = (scene.engine.steps(), scene.engine.setup().dt);
-        let (mut measures, mut breaks) = (None, None);
+        let (mut measures, mut breaks, mut wear) = (None, None, None);
         if let Some(folder) = &folder {
             std::fs::create_dir_all(folder).map_err(|e| Fail::file(folder, e))?;
             // Of a run that goes on, the lines up to the checkpoint stay.
@@ -160,12 +163,15 @@ impl<'a> Out<'a> {
             if scene.fragmentation.is_some() {
                 breaks = Some(Csv::new(folder, "breaks.csv", BREAK_COLUMNS, old(&until))?);
             }
+            if !scene.wear.is_empty() {
+                wear = Some(Csv::new(folder, "wear.csv", WEAR_COLUMNS, old(&until))?);
+            }
         }
-        Ok(Out { measures, breaks, folder, dt, bar, start: Instant::now(), first })
+        Ok(Out { measures, breaks, wear, folder, dt, bar, start: Instant::now(), first })
     }
 
     fn flush(&mut self) -> Result<()> {
-        for csv in [&mut self.measures, &mut self.breaks].into_iter().flatten() {
+        for csv in [&mut self.measures, &mut self.breaks, &mut self.wear].into_iter().flatten() {
             csv.to.flush().map_err(|e| io(&csv.path, &e))?;
         }
         Ok(())
@@ -181,6 +187,11 @@ impl Sink for Out<'_> {
         let text: Vec<String> =
             values.iter().map(|v| v.map_or(String::new(), |v| format!("{v:?}"))).collect();
         self.measures.as_mut().map_or(Ok(()), |csv| csv.line(&text.join(",")))
+    }
+
+    fn wore(&mut self, record: &WearRecord) -> Result<()> {
+        let line = wear_line(record, self.dt);
+        self.wear.as_mut().map_or(Ok(()), |csv| csv.line(&line))
     }
 
     fn broke(&mut self, record: &BreakRecord) -> Result<()> {

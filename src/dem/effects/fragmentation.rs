@@ -5,6 +5,7 @@
 //! pushed: mass, momentum and angular momentum are those of the body (dust included), and the
 //! energy of motion, of place and of springs together does not rise.
 
+use crate::dem::breaking::errors;
 use crate::dem::rotate::Orientation;
 use crate::dem::state::{Placed, State};
 use crate::dem::template::Template;
@@ -134,13 +135,7 @@ pub struct BreakRecord {
 impl BreakRecord {
     /// Errors of mass, momentum and angular momentum, relative; 0 where nothing moves.
     pub fn errors(&self) -> [f64; 3] {
-        let [m, p, l] = self.sizes;
-        let part = |error: f64, size: f64| if size > 0.0 { error / size } else { 0.0 };
-        [
-            part(self.mass.abs(), m),
-            part(self.momentum.norm(), p),
-            part(self.angular_momentum.norm(), l),
-        ]
+        errors(&(self.mass, self.momentum, self.angular_momentum), &self.sizes)
     }
 }
 
@@ -173,7 +168,7 @@ pub(crate) struct Pieces {
     pub shattered: Shattered,
 }
 
-fn unit(q: [f64; 4]) -> UnitQuaternion<f64> {
+pub(crate) fn unit(q: [f64; 4]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(q[0], q[1], q[2], q[3]))
 }
 

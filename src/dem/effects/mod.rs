@@ -14,6 +14,7 @@ pub mod motion;
 pub mod normal;
 pub mod rolling;
 pub mod tangential;
+pub mod wear;
 
 use super::contact::Motion;
 use super::small::tr_mul;

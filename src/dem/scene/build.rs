@@ -5,8 +5,10 @@ use super::fragmentation::{breaks, fragmentation, with_pieces};
 use super::materials::{coefficients, known};
 use super::templates::{Made, Source, make};
 use super::watch::Watch;
+use super::wear::{wear, wears};
 use crate::dem::advice::advise;
 use crate::dem::effects::fragmentation::Fragmentation;
+use crate::dem::effects::wear::Wear;
 use crate::dem::{
     Coefficients, CohesionLaw, DampingLaw, Engine, Laws, NormalLaw, Placed, Setup, State,
     TangentialLaw, WallMotion, WallSetup, WallShape,
@@ -27,6 +29,8 @@ pub struct Scene {
     pub templates: Vec<Made>,
     /// What of it breaks.
     pub fragmentation: Option<Fragmentation>,
+    /// What of it wears.
+    pub wear: Vec<Wear>,
     /// Beyond this time step the worst of its clumps gains energy without bound; `None` without contacts.
     pub limit: Option<f64>,
     /// When it ends.
@@ -57,7 +61,8 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
     let mut templates: Vec<Made> = Vec::new();
     for (k, (name, part)) in file.templates.iter().enumerate() {
         run.check(k as f64 / file.templates.len() as f64, "making clumps")?;
-        push("templates", &mut templates, make(name, part, breaks(file, name), folder, run)?)?;
+        let keep = breaks(file, name) || wears(file, name);
+        push("templates", &mut templates, make(name, part, keep, folder, run)?)?;
     }
     let materials: Result<Vec<u32>> = file
         .templates
@@ -167,6 +172,10 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
     if let Some(f) = &fragmentation {
         engine.break_by(f.clone())?;
     }
+    let wear = wear(file, &templates, dt)?;
+    if !wear.is_empty() {
+        engine.wear_by(wear.clone())?;
+    }
     engine.start(run)?;
     refuse_overlap(&engine, r.overlap)?;
     let coming: u64 = file.insertion.iter().map(|i| i.total).sum();
@@ -177,6 +186,7 @@ pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
         engine,
         templates,
         fragmentation,
+        wear,
         limit,
         end: r.end,
         rest: r.rest,
@@ -292,6 +302,9 @@ impl Scene {
         let mut engine = Engine::resume(self.engine.setup().clone(), checkpoint)?;
         if let Some(f) = &self.fragmentation {
             engine.break_by(f.clone())?;
+        }
+        if !self.wear.is_empty() {
+            engine.wear_by(self.wear.clone())?;
         }
         self.engine = engine;
         Ok(())

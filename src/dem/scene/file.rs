@@ -35,6 +35,9 @@ pub struct SceneFile {
     pub walls: Vec<WallPart>,
     /// Bodies that break.
     pub fragmentation: Option<super::fragmentation::FragmentationPart>,
+    /// Bodies that wear.
+    #[serde(default)]
+    pub wear: Vec<super::wear::WearPart>,
     /// What is written down.
     #[serde(default)]
     pub output: OutputPart,

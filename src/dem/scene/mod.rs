@@ -9,6 +9,7 @@ mod materials;
 mod play;
 mod templates;
 mod watch;
+pub mod wear;
 
 pub use build::{Scene, build};
 pub use file::SceneFile;
@@ -17,3 +18,4 @@ pub use keys::parse;
 pub use play::{Over, Place, Sink, play, rows_before};
 pub use templates::Made;
 pub use watch::Watch;
+pub use wear::{WEAR_COLUMNS, wear_line};

@@ -3,6 +3,7 @@
 use super::Scene;
 use super::frames::frame;
 use crate::dem::effects::fragmentation::BreakRecord;
+use crate::dem::effects::wear::WearRecord;
 use crate::dem::energy;
 use crate::error::Result;
 use crate::run::Run;
@@ -31,6 +32,10 @@ pub trait Sink {
     fn checkpoint(&mut self, steps: u64, bytes: &[u8]) -> Result<()>;
     /// A body has broken.
     fn broke(&mut self, _: &BreakRecord) -> Result<()> {
+        Ok(())
+    }
+    /// A body has worn.
+    fn wore(&mut self, _: &WearRecord) -> Result<()> {
         Ok(())
     }
     /// Asked now and then; what it returns says whether to go on.
@@ -65,7 +70,7 @@ pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
             sink.frame(0, &frame(&scene.engine))?;
         }
     }
-    let mut told = scene.engine.breaks().len();
+    let mut told = [scene.engine.breaks().len(), scene.engine.flats().len()];
     let mut contacts = scene.engine.work().contacts;
     let mut over = Over::End;
     while scene.engine.steps() < last {
@@ -74,10 +79,13 @@ pub fn play(scene: &mut Scene, sink: &mut dyn Sink, run: &Run) -> Result<Over> {
         let to =
             last.min(next(every)).min(next(frames)).min(next(kept)).min((at / LOOK + 1) * LOOK);
         let advanced = scene.engine.advance(to - at, run);
-        for b in scene.engine.breaks().iter().skip(told) {
+        for b in scene.engine.breaks().iter().skip(told[0]) {
             sink.broke(b)?;
         }
-        told = scene.engine.breaks().len();
+        for w in scene.engine.flats().iter().skip(told[1]) {
+            sink.wore(w)?;
+        }
+        told = [scene.engine.breaks().len(), scene.engine.flats().len()];
         advanced?;
         let due = |period: Option<u64>| period.is_some_and(|p| to.is_multiple_of(p));
         if due(every) && to < last {
