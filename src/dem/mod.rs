@@ -11,6 +11,7 @@ pub mod contact;
 pub mod effects;
 pub mod energy;
 pub mod engine;
+pub mod impact;
 mod integrate;
 mod kernel;
 pub mod materials;

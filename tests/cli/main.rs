@@ -10,6 +10,8 @@ mod fragments;
 mod masses;
 mod options;
 mod pictures;
+#[cfg(feature = "dem")]
+mod scenes;
 mod shapes;
 
 use serde_json::Value;

@@ -23,6 +23,8 @@ mod progress;
 mod sample;
 #[cfg(feature = "dem")]
 mod simulate;
+#[cfg(feature = "dem")]
+mod sweep;
 mod view;
 mod weighing;
 mod write;

@@ -3,10 +3,11 @@
 use crate::fail::{About, Done, Fail};
 use crate::input::parse::whole;
 use crate::progress::Bar;
-use crate::write;
+use crate::{sweep, write};
 use morula::dem::Engine;
 use morula::dem::effects::fragmentation::BreakRecord;
 use morula::dem::effects::wear::WearRecord;
+use morula::dem::scene::sweep::cases;
 use morula::dem::scene::{
     BREAK_COLUMNS, Over, Place, Scene, Sink, WEAR_COLUMNS, break_line, build, parse, play,
     rows_before, wear_line,
@@ -23,7 +24,8 @@ use std::time::Instant;
 /// others (docs/scenes.md).
 ///
 /// Into DIR go measures.csv, checkpoint.bin, breaks.csv and wear.csv of bodies that break or wear and, where the scene asks for them, frame_000000.vtp and so on
-/// for ParaView.
+/// for ParaView. A scene that sweeps over values or throws a body in many poses makes a table instead, sweep.csv, with
+/// the processor time of each run, and impacts.csv of all throws.
 #[derive(clap::Args)]
 pub struct Args {
     /// Scene file, TOML
@@ -63,6 +65,9 @@ pub fn run(args: &Args) -> Done {
     let path = Path::new(&args.scene);
     let text = std::fs::read_to_string(path).map_err(|e| Fail::file(path, e))?;
     let file = parse(&text, args.quick, &args.set).about(&args.scene)?;
+    if file.impacts.is_some() || !file.sweep.is_empty() {
+        return many(args, &text, path);
+    }
     let bar = Bar::new("making clumps", args.quiet);
     let seed = file.run.seed;
     let made = bar.attach(Run::new(args.threads).about("--threads")?.with_seed(seed));
@@ -90,6 +95,25 @@ pub fn run(args: &Args) -> Done {
         return Ok(());
     }
     summary(&scene, over, seconds)
+}
+
+/// Many runs of one file: their table.
+fn many(args: &Args, text: &str, path: &Path) -> Done {
+    if args.resume {
+        return Err(Fail::Usage("a sweep does not go on from a checkpoint".into()));
+    }
+    let bar = Bar::new("sweeping", args.quiet);
+    let cases = cases(text, args.quick, &args.set).about(&args.scene)?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    let (table, throws) = sweep::run(&cases, folder, args.threads, &bar)?;
+    drop(bar);
+    if let Some(folder) = &args.output {
+        sweep::save(&table, &throws, Path::new(folder))?;
+    }
+    if args.quiet {
+        return Ok(());
+    }
+    sweep::print(cases.first().map_or("", |c| &c.file.title), &table)
 }
 
 /// A table that grows while it runs.

@@ -3,7 +3,7 @@
 use super::file::*;
 use super::fragmentation::{breaks, fragmentation, with_pieces};
 use super::materials::{coefficients, known};
-use super::templates::{Made, Source, make};
+use super::templates::{Made, Makes, Source};
 use super::watch::Watch;
 use super::wear::{wear, wears};
 use crate::dem::advice::advise;
@@ -56,13 +56,18 @@ pub struct Scene {
 /// Refused: names that are not there, numbers out of their range, effects that can do nothing, a time
 /// step of 0 or beyond what the clumps allow without being told so.
 pub fn build(file: &SceneFile, folder: &Path, run: &Run) -> Result<Scene> {
+    build_with(file, folder, &mut Makes::default(), run)
+}
+
+/// The same, with clumps that were made before.
+pub fn build_with(file: &SceneFile, folder: &Path, makes: &mut Makes, run: &Run) -> Result<Scene> {
     let laws = laws(&file.effects)?;
     let coefficients = coefficients(file, laws.as_ref())?;
     let mut templates: Vec<Made> = Vec::new();
     for (k, (name, part)) in file.templates.iter().enumerate() {
         run.check(k as f64 / file.templates.len() as f64, "making clumps")?;
         let keep = breaks(file, name) || wears(file, name);
-        push("templates", &mut templates, make(name, part, keep, folder, run)?)?;
+        push("templates", &mut templates, makes.make(name, part, keep, folder, run)?)?;
     }
     let materials: Result<Vec<u32>> = file
         .templates

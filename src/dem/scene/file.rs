@@ -1,5 +1,7 @@
 //! What a scene file may say. Lengths, masses and times are in any one system of units.
 
+use super::impacts::ImpactsPart;
+use super::sweep::SweepPart;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -41,6 +43,11 @@ pub struct SceneFile {
     /// What is written down.
     #[serde(default)]
     pub output: OutputPart,
+    /// Throws of the first body at the first wall, instead of a run over time.
+    pub impacts: Option<ImpactsPart>,
+    /// Many runs instead of one: every combination of what these list.
+    #[serde(default)]
+    pub sweep: Vec<SweepPart>,
     /// What of all this a quick run has differently.
     #[serde(default)]
     pub quick: toml::Table,
@@ -334,6 +341,8 @@ pub enum TargetName {
     Solid,
     /// Of the union of the spheres.
     Union,
+    /// Of a built-in particle by its formulas, without the facets of its mesh.
+    Exact,
 }
 
 /// A body.

@@ -2,10 +2,10 @@
 
 use super::file::{EffortName, MethodName, TargetName, TemplatePart};
 use crate::dem::Template;
-use crate::error::{Error, Result, figure};
+use crate::error::{Error, Result, figure, push};
 use crate::generate::{Effort, GenerateOptions, Method, generate};
 use crate::mass::{Body, Target};
-use crate::math::Sphere;
+use crate::math::{Inertia, Moments, Sphere};
 use crate::run::Run;
 use crate::shape::{ImportOptions, Primitive, Shape};
 use crate::solid::{Resolution, Solid, SolidOptions};
@@ -27,14 +27,34 @@ pub struct Made {
     pub source: Option<(Arc<Solid>, Vec<Sphere>)>,
 }
 
-/// Makes the template of this name; `folder` is where its file is looked for. With `keep` its solid stays.
-pub(super) fn make(
-    name: &str,
-    part: &TemplatePart,
-    keep: bool,
-    folder: &Path,
-    run: &Run,
-) -> Result<Made> {
+/// Clumps that were made: a run that asks for the same ones again gets them.
+#[derive(Clone, Default)]
+pub struct Makes(Vec<(TemplatePart, u64, Made)>);
+
+impl Makes {
+    /// Makes the template of this name; `folder` is where its file is looked for. With `keep` its solid stays.
+    pub(super) fn make(
+        &mut self,
+        name: &str,
+        part: &TemplatePart,
+        keep: bool,
+        folder: &Path,
+        run: &Run,
+    ) -> Result<Made> {
+        let seed = run.seed();
+        let like = |m: &&(TemplatePart, u64, Made)| {
+            m.0 == *part && m.1 == seed && (m.2.source.is_some() || !keep)
+        };
+        if let Some((.., made)) = self.0.iter().find(like) {
+            return Ok(Made { name: name.to_owned(), ..made.clone() });
+        }
+        let made = make(name, part, keep, folder, run)?;
+        push("clumps", &mut self.0, (part.clone(), seed, made.clone()))?;
+        Ok(made)
+    }
+}
+
+fn make(name: &str, part: &TemplatePart, keep: bool, folder: &Path, run: &Run) -> Result<Made> {
     let bad = |what: String| Err(Error::InvalidArgument(format!("the template {name} {what}")));
     let choices = [part.ball.is_some(), part.shape.is_some(), part.file.is_some()];
     if choices.iter().filter(|c| **c).count() != 1 {
@@ -85,10 +105,13 @@ pub(super) fn make(
     }
     let clump = generate(&solid, &options, run).map_err(whose)?;
     let target = match part.inertia {
-        TargetName::Solid => Target::Solid,
+        TargetName::Solid | TargetName::Exact => Target::Solid,
         TargetName::Union => Target::Union,
     };
-    let body = Body::new(target, &solid, &clump.spheres, part.density, run).map_err(whose)?;
+    let body = match part.inertia {
+        TargetName::Exact => source.exact(part.density).map_err(whose)?,
+        _ => Body::new(target, &solid, &clump.spheres, part.density, run).map_err(whose)?,
+    };
     let template = Arc::new(Template::of_body(&clump.spheres, &body).map_err(whose)?);
     let spheres = body.to_body(&clump.spheres);
     let source = keep.then(|| (Arc::new(solid), clump.spheres));
@@ -110,11 +133,30 @@ impl Source<'_> {
         let Some(name) = self.shape else {
             return from_file(&folder.join(self.file.unwrap_or_default()), &import, run);
         };
+        Shape::from_primitive(&self.particle(name)?, self.segments, &import, run)
+    }
+
+    fn particle(&self, name: &str) -> Result<Primitive> {
         let mut particle = Primitive::from_name(name)?;
         for (key, value) in self.set {
             particle.set(key, *value)?;
         }
-        Shape::from_primitive(&particle, self.segments, &import, run)
+        Ok(particle)
+    }
+
+    /// The body by the formulas of its shape.
+    fn exact(&self, density: f64) -> Result<Body> {
+        let moments = match self.shape {
+            Some(name) => self.particle(name)?.moments(),
+            None => None,
+        };
+        let Some(m) = moments else {
+            return Err(Error::Unsupported("there are no formulas for its inertia".into()));
+        };
+        let scale = self.scale;
+        let inertia = Inertia::from_matrix(&(m.inertia.matrix() * scale.powi(5)));
+        let (volume, centroid) = (m.volume * scale.powi(3), m.centroid * scale);
+        Body::of_moments(&Moments { volume, centroid, inertia, ..m }, density)
     }
 }
 
