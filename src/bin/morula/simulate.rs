@@ -116,6 +116,9 @@ fn many(args: &Args, text: &str, path: &Path) -> Done {
     sweep::print(cases.first().map_or("", |c| &c.file.title), &table)
 }
 
+/// Which lines of a table stay: by number and text.
+type Keep<'a> = &'a dyn Fn(usize, &str) -> bool;
+
 /// A table that grows while it runs.
 struct Csv {
     path: PathBuf,
@@ -124,12 +127,7 @@ struct Csv {
 
 impl Csv {
     /// With the lines of an old one, in their order, for which `keep` is true where it goes on.
-    fn new(
-        folder: &Path,
-        name: &str,
-        head: &str,
-        keep: Option<&dyn Fn(usize, &str) -> bool>,
-    ) -> Done<Csv> {
+    fn new(folder: &Path, name: &str, head: &str, keep: Option<Keep>) -> Done<Csv> {
         let path = folder.join(name);
         let mut kept = String::new();
         if let Some(keep) = keep {
