@@ -2,7 +2,7 @@
 #![cfg(feature = "dem")]
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use morula::dem::scene::{Over, Place, Scene, Sink, build, parse, play, rows_before};
+use morula::dem::scene::{Over, Place, Scene, Sink, build, parse, play, rows_before, shares};
 use morula::{Error, Result, Run};
 use std::path::Path;
 
@@ -276,4 +276,23 @@ fn insertions_that_cannot_be_are_refused() {
         "0.7",
         "materials glass and sweet: they differ in restitution",
     );
+}
+
+/// Shares are those of the effects that are named, and of the bodies; they add up, and leave the run as it was.
+#[test]
+fn shares_are_of_what_is_named() {
+    let run = Run::serial();
+    let mut bed = scene(BED, &[("run.end", "0.012")]).unwrap();
+    let mut kept = Kept::default();
+    play(&mut bed, &mut kept, &run).unwrap();
+    let before = bed.engine.checkpoint().unwrap();
+    let bytes: Vec<Vec<u8>> = kept.checkpoints.iter().map(|c| c.1.clone()).collect();
+    let found = shares(&bed, &bytes[1..], &run).unwrap();
+    let names: Vec<&str> = found.iter().map(|s| s.name).collect();
+    let named =
+        ["insertion", "drag", "averaging", "tangential", "damping", "normal", "gravity", "bodies"];
+    assert_eq!(names, named);
+    assert!((found.iter().map(|s| s.part).sum::<f64>() - 1.0).abs() < 1e-12, "{found:?}");
+    assert!(found.iter().all(|s| (0.0..=1.0).contains(&s.part)), "{found:?}");
+    assert!(bed.engine.checkpoint().unwrap() == before);
 }

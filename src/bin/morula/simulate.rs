@@ -9,8 +9,8 @@ use morula::dem::effects::fragmentation::BreakRecord;
 use morula::dem::effects::wear::WearRecord;
 use morula::dem::scene::sweep::cases;
 use morula::dem::scene::{
-    BREAK_COLUMNS, Over, Place, Scene, Sink, WEAR_COLUMNS, break_line, build, parse, play,
-    rows_before, wear_line,
+    BREAK_COLUMNS, Over, Place, Scene, Share, Sink, WEAR_COLUMNS, break_line, build, parse, play,
+    rows_before, shares, wear_line,
 };
 use morula::error::count;
 use morula::export::save_in;
@@ -46,11 +46,17 @@ pub struct Args {
     /// Threads; 0: all cores. The result does not depend on it
     #[arg(long, default_value_t = 1, value_parser = whole::<usize>)]
     threads: usize,
+    /// After the run, tell what share of a step's time each effect has: parts of the run are run again with one after
+    /// the other left out
+    #[arg(long, conflicts_with = "quiet")]
+    shares: bool,
     /// No progress bar, no summary, no notes
     #[arg(short, long)]
     quiet: bool,
 }
 
+/// Most checkpoints from which shares are measured.
+const KEPT: usize = 8;
 /// The newest checkpoint.
 const CHECKPOINT: &str = "checkpoint.bin";
 
@@ -84,17 +90,24 @@ pub fn run(args: &Args) -> Done {
         let bytes = std::fs::read(&path).map_err(|e| Fail::file(&path, e))?;
         scene.resume(&bytes).about(&path.display().to_string())?;
     }
+    if args.shares {
+        scene.checkpoint.get_or_insert(scene.end / 8.0);
+    }
     let mut out = Out::new(args, &scene, &bar)?;
     let run = Run::new(args.threads).about("--threads")?;
     let start = Instant::now();
     let over = play(&mut scene, &mut out, &run).about(&args.scene)?;
     let seconds = start.elapsed().as_secs_f64();
     out.flush().about(&args.scene)?;
+    let parts = match &out.kept {
+        Some(kept) => shares(&scene, kept, &run).about(&args.scene)?,
+        None => Vec::new(),
+    };
     drop(bar);
     if args.quiet {
         return Ok(());
     }
-    summary(&scene, over, seconds)
+    summary(&scene, over, seconds, &parts)
 }
 
 /// Many runs of one file: their table.
@@ -151,6 +164,8 @@ struct Out<'a> {
     measures: Option<Csv>,
     breaks: Option<Csv>,
     wear: Option<Csv>,
+    /// Some of the checkpoints, where shares are asked for.
+    kept: Option<Vec<Vec<u8>>>,
     folder: Option<PathBuf>,
     dt: f64,
     bar: &'a Bar,
@@ -189,7 +204,8 @@ impl<'a> Out<'a> {
                 wear = Some(Csv::new(folder, "wear.csv", WEAR_COLUMNS, old(&until))?);
             }
         }
-        Ok(Out { measures, breaks, wear, folder, dt, bar, start: Instant::now(), first })
+        let kept = args.shares.then(Vec::new);
+        Ok(Out { measures, breaks, wear, kept, folder, dt, bar, start: Instant::now(), first })
     }
 
     fn flush(&mut self) -> Result<()> {
@@ -228,6 +244,17 @@ impl Sink for Out<'_> {
     }
 
     fn checkpoint(&mut self, _: u64, bytes: &[u8]) -> Result<()> {
+        if let Some(kept) = &mut self.kept {
+            kept.push(bytes.to_vec());
+            if kept.len() > KEPT {
+                // Every second one goes.
+                let mut even = false;
+                kept.retain(|_| {
+                    even = !even;
+                    even
+                });
+            }
+        }
         // What stands in the tables then is as old as the checkpoint.
         self.flush()?;
         let Some(folder) = &self.folder else { return Ok(()) };
@@ -244,7 +271,7 @@ impl Sink for Out<'_> {
     }
 }
 
-fn summary(scene: &Scene, over: Over, seconds: f64) -> Done {
+fn summary(scene: &Scene, over: Over, seconds: f64, parts: &[Share]) -> Done {
     let engine: &Engine = &scene.engine;
     let (state, work) = (engine.state(), engine.work());
     let spheres: u64 = (0..state.len()).map(|i| state.template_of(i).spheres().len() as u64).sum();
@@ -285,7 +312,18 @@ fn summary(scene: &Scene, over: Over, seconds: f64) -> Done {
         }
         let named = engine.effects().into_iter().filter(|e| e.calls > 0 || e.bytes > 0);
         for e in named {
-            writeln!(out, "{:>20}  {} calls, {} bytes", e.name, e.calls, e.bytes)?;
+            let part = parts.iter().find(|p| p.name == e.name);
+            let part =
+                part.map_or(String::new(), |p| format!(", {:.1} % of the time", 100.0 * p.part));
+            writeln!(out, "{:>20}  {} calls, {} bytes{part}", e.name, e.calls, e.bytes)?;
+        }
+        if let Some(rest) = parts.iter().find(|p| p.name == "bodies") {
+            let part = 100.0 * rest.part;
+            writeln!(
+                out,
+                "{:>20}  what moves them and the walls, {part:.1} % of the time",
+                "bodies"
+            )?;
         }
         Ok(())
     })
