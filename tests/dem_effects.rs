@@ -446,3 +446,19 @@ fn bad_input_is_told() {
     assert!(Template::new(&[Sphere::new(Vec3::zeros(), 1.0)], 0.0, [1.0; 3]).is_err());
     assert!(Template::new(&[Sphere::new(Vec3::zeros(), 1.0)], 1.0, [1.0, 1.0, 3.0]).is_err());
 }
+
+#[test]
+fn a_body_that_is_fixed_against_a_wall_is_not_damped() {
+    for damping in [DampingLaw::None, DampingLaw::Bodies, DampingLaw::Contact] {
+        let laws = Laws { damping, ..Laws::elastic(NormalLaw::Linear) };
+        let (_, c) = rough();
+        let mut state = State::new(vec![ball()]);
+        let velocity = Vec3::new(0.1, 0.0, -0.1);
+        let at = Placed::at(Vec3::new(0.0, 0.0, 0.01 - 1e-5));
+        state.add(&Placed { fixed: true, velocity, ..at }).unwrap();
+        let mut e = Engine::new(setup(laws, c, plane(Vec3::z()), 1e-6), state).unwrap();
+        e.advance(10, &Run::serial()).unwrap();
+        let force = e.on_wall(0).unwrap()[0];
+        assert!((force.z / -(1e4 * (1e-5 + 1e-6)) - 1.0).abs() < 1e-9, "{damping:?}: {force}");
+    }
+}

@@ -1,5 +1,6 @@
 //! How an engine breaks its bodies.
 
+use super::built;
 use super::contact::Calls;
 use super::effects::fragmentation::{
     BreakRecord, Breaker, Energies, Fragmentation, Pieces, Shard, Touching, motion_of,
@@ -65,6 +66,7 @@ impl Engine {
     /// Lets bodies break. After [`Engine::resume`] with the same fragmentation as before: pieces break on as they
     /// would have.
     pub fn break_by(&mut self, setup: Fragmentation) -> Result<()> {
+        built::check("fragmentation", true)?;
         let mut breaker = Breaker::new(setup, &self.state)?;
         if let Some(broken) = self.broken.take() {
             let damaged = || Error::Format("the checkpoint's pieces do not agree".into());

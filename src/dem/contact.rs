@@ -1,6 +1,7 @@
 //! Laws of contact, composed at compile time: one instance for each combination that makes sense, chosen
 //! once for a scene.
 
+use super::built::built;
 use super::effects::cohesion::{Cohesion, Dry, Jkr, Stress};
 use super::effects::damping::{Damping, Elasticity, Restitution, dashpot};
 use super::effects::normal::{Hertz, Linear, Normal};
@@ -147,6 +148,8 @@ impl Calls {
 pub(crate) trait Law: Copy + Send + Sync + 'static {
     /// How many numbers a contact remembers.
     const WIDTH: usize;
+    /// Of these: friction, rolling resistance, cohesion.
+    const WIDTHS: [usize; 3];
     /// Whether contacts may last beyond touching.
     const FAR: bool;
     /// What one contact does; `None` where it is none any more.
@@ -170,6 +173,7 @@ impl<N: Normal, D: Damping, T: Tangential, R: Rolling, C: Cohesion> Law
     for Composed<N, D, T, R, C>
 {
     const WIDTH: usize = T::WIDTH + R::WIDTH + C::WIDTH;
+    const WIDTHS: [usize; 3] = [T::WIDTH, R::WIDTH, C::WIDTH];
     const FAR: bool = C::FAR;
 
     #[inline(always)]
@@ -231,7 +235,9 @@ macro_rules! instances {
 
         fn compose<V: Visitor, D: Damping>(laws: &Laws, v: V) -> Option<V::Out> {
             match (laws.normal, laws.tangential, laws.rolling, laws.cohesion) {
-                $((NormalLaw::$normal, TangentialLaw::$tangential, $rolling, CohesionLaw::$cohesion) => {
+                $((NormalLaw::$normal, TangentialLaw::$tangential, $rolling, CohesionLaw::$cohesion)
+                    if const { is_built::<$t, $r, $c>() } =>
+                {
                     Some(v.visit::<Composed<$n, D, $t, $r, $c>>())
                 })*
                 _ => None,
@@ -263,6 +269,11 @@ instances! {
     Hertz NoSlip false Jkr: Hertz NoSlip Free Jkr;
 }
 
+/// Whether all these laws are.
+const fn is_built<T: Tangential, R: Rolling, C: Cohesion>() -> bool {
+    (!T::ON || built("tangential")) && (!R::ON || built("rolling")) && (!C::ON || built("cohesion"))
+}
+
 /// Calls `v` with the type of these laws. Refused: combinations that are not built.
 pub(crate) fn choose<V: Visitor>(laws: &Laws, v: V) -> Result<V::Out> {
     if laws.averaging && laws.cohesion == CohesionLaw::Jkr {
@@ -270,7 +281,8 @@ pub(crate) fn choose<V: Visitor>(laws: &Laws, v: V) -> Result<V::Out> {
     }
     let found = match laws.damping {
         DampingLaw::None => compose::<V, Elasticity>(laws, v),
-        _ => compose::<V, Restitution>(laws, v),
+        _ if const { built("damping") } => compose::<V, Restitution>(laws, v),
+        _ => None,
     };
     found.ok_or_else(|| {
         Error::Unsupported(match (laws.normal, laws.tangential, laws.rolling, laws.cohesion) {

@@ -2,6 +2,7 @@
 
 use super::breaking::Broken;
 use super::broad::Broad;
+use super::built::{built, check_all};
 use super::contact::{Calls, Law, Laws, Visitor, choose};
 use super::effects::cohesion::jkr_range;
 use super::effects::drag::{self, Drag};
@@ -156,6 +157,7 @@ impl Engine {
                 "the time step is {dt}, not a number above 0"
             )));
         }
+        check_all(&setup)?;
         let walls: Result<Vec<Wall>> =
             setup.walls.iter().enumerate().map(|(i, w)| Wall::new(w, i)).collect();
         let walls = walls?;
@@ -383,15 +385,19 @@ impl Engine {
         let (c, w) = (&self.work.calls, &self.work);
         let held: u64 =
             self.broad.pairs.iter().chain(&self.wall_pairs).map(Pair::memory_bytes).sum();
-        let insertion = self.setup.insertion.capacity() * size_of::<Insertion>();
+        // A contact's memory is of several effects.
+        let widths = self.kernel.as_ref().map_or([0; 3], |k| k.widths());
+        let each = held / (widths.iter().sum::<usize>() as u64).max(1);
+        let [friction, rolling, cohesion] = widths.map(|w| w as u64 * each);
+        let insertion = self.setup.insertion.capacity() * (size_of::<Insertion>() + 8);
         let moving = self.walls.iter().filter(|w| w.moves()).count() * size_of::<Wall>();
         [
             ("gravity", w.gravity, 0),
             ("normal", c.normal, 0),
             ("damping", c.damping, 0),
-            ("tangential", c.tangential, if c.tangential > 0 { held } else { 0 }),
-            ("rolling", c.rolling, 0),
-            ("cohesion", c.cohesion, if c.tangential > 0 { 0 } else { held }),
+            ("tangential", c.tangential, friction),
+            ("rolling", c.rolling, rolling),
+            ("cohesion", c.cohesion, cohesion),
             ("averaging", c.averaging, 0),
             ("drag", w.drag, 0),
             ("insertion", w.insertion, insertion as u64),
@@ -466,24 +472,28 @@ impl Engine {
         integrate::drift(&mut self.state, dt, self.setup.exact_rotation);
         self.step += 1;
         let time = self.time();
-        for wall in &mut self.walls {
-            if wall.to(time, dt) {
-                self.work.motion += 1;
+        if built("motion") {
+            for wall in &mut self.walls {
+                if wall.to(time, dt) {
+                    self.work.motion += 1;
+                }
             }
         }
         self.forces(run, self.setup.dt);
         integrate::kick(&mut self.state, dt);
-        for (i, wall) in self.walls.iter().enumerate() {
+        for (i, wall) in self.walls.iter().enumerate().filter(|_| built("motion")) {
             let power = self.wall_force[i].dot(&wall.kin.v) + self.wall_torque[i].dot(&wall.kin.w);
             self.put_in -= power * dt;
         }
-        if self.breaker.is_some() {
+        if built("fragmentation") && self.breaker.is_some() {
             self.break_due(run)?;
         }
-        if self.wearer.is_some() {
+        if built("wear") && self.wearer.is_some() {
             self.wear_due(run)?;
         }
-        self.insert()?;
+        if built("insertion") {
+            self.insert()?;
+        }
         if self.setup.guard && self.step.is_multiple_of(GUARD) {
             self.look()?;
         }
@@ -495,15 +505,19 @@ impl Engine {
         let n = self.state.len();
         self.state.force.fill(Vec3::zeros());
         self.state.torque.fill(Vec3::zeros());
-        if let Some(g) = &self.setup.gravity {
+        if built("gravity")
+            && let Some(g) = &self.setup.gravity
+        {
             gravity::pull(&mut self.state, g);
             self.work.gravity += n as u64;
         }
-        if let Some(d) = &self.setup.drag {
+        if built("drag")
+            && let Some(d) = &self.setup.drag
+        {
             drag::slow(&mut self.state, d);
             self.work.drag += n as u64;
         }
-        let Some(kernel) = &self.kernel else { return };
+        let Some(kernel) = self.kernel.as_ref().filter(|_| built("normal")) else { return };
         self.wall_force.fill(Vec3::zeros());
         self.wall_torque.fill(Vec3::zeros());
         self.broad.update(&self.state);

@@ -1,5 +1,6 @@
 //! What a composition of laws does with all pairs.
 
+use super::built::built;
 use super::contact::{Calls, Law};
 use super::effects::Coefficients;
 use super::narrow::{ContactRecord, Pair, Wrench};
@@ -81,6 +82,8 @@ impl Context<'_> {
 pub(crate) trait Kernel: Send + Sync {
     /// How many numbers a contact remembers.
     fn width(&self) -> usize;
+    /// How many of them are of friction, rolling resistance and cohesion.
+    fn widths(&self) -> [usize; 3];
     /// Forces of pairs of bodies; each is given to `give`, or kept with its pair where there is none.
     fn bodies(
         &self,
@@ -124,7 +127,9 @@ impl Sums<'_> {
         self.force[b] += w.force;
         self.torque[a] += w.torques[0];
         self.torque[b] += w.torques[1];
-        if let Some(load) = &mut self.load {
+        if built("fragmentation")
+            && let Some(load) = &mut self.load
+        {
             let size = w.force.norm();
             load[a] += size;
             load[b] += size;
@@ -138,7 +143,9 @@ impl Sums<'_> {
         self.wall_torque[a] += w.torques[0];
         self.force[b] += w.force;
         self.torque[b] += w.torques[1];
-        if let Some(load) = &mut self.load {
+        if built("fragmentation")
+            && let Some(load) = &mut self.load
+        {
             load[b] += w.force.norm();
         }
     }
@@ -150,6 +157,10 @@ pub(crate) struct Of<L>(pub std::marker::PhantomData<L>);
 impl<L: Law> Kernel for Of<L> {
     fn width(&self) -> usize {
         L::WIDTH
+    }
+
+    fn widths(&self) -> [usize; 3] {
+        L::WIDTHS
     }
 
     fn bodies(

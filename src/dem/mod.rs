@@ -7,6 +7,7 @@
 pub mod advice;
 mod breaking;
 mod broad;
+mod built;
 pub mod contact;
 pub mod effects;
 pub mod energy;

@@ -9,6 +9,7 @@
 //! Forces depend on the state alone, never on when a list was made: contacts are summed in the order of their
 //! spheres, in the frame of the first body.
 
+use super::built::built;
 use super::contact::{Action, Law, Motion};
 use super::effects::averaging::Average;
 use super::effects::{Coefficients, Touch};
@@ -298,7 +299,8 @@ impl Pair {
             wbh: to(kb.wh),
             inertia: [a.inertia, b.inertia],
             inverse_mass,
-            mass: 1.0 / inverse_mass,
+            // A body that is fixed against a wall has none to damp.
+            mass: if inverse_mass > 0.0 { 1.0 / inverse_mass } else { 0.0 },
         };
         let used = moved - self.made + context.range;
         let spheres = body.spheres();
@@ -362,7 +364,7 @@ impl Pair {
         }
         self.touching = count;
         scratch.contacts += u64::from(count);
-        if context.averaging {
+        if built("averaging") && context.averaging {
             scratch.calls.averaging += 1;
             let share = self.average.share(count, elastic);
             force *= share;

@@ -1,6 +1,7 @@
 //! How an engine wears its bodies down.
 
 use super::breaking::{differences, errors};
+use super::built;
 use super::effects::fragmentation::{Energies, motion_of};
 use super::effects::wear::{Flat, Wear, WearRecord, Wearer};
 use super::engine::Engine;
@@ -11,6 +12,7 @@ use crate::run::Run;
 impl Engine {
     /// Lets bodies wear. After [`Engine::resume`] with the same as before: they wear on as they would have.
     pub fn wear_by(&mut self, setup: Vec<Wear>) -> Result<()> {
+        built::check("wear", true)?;
         let mut wearer = Wearer::new(setup, &self.state)?;
         if let Some(worn) = self.worn.take() {
             let templates = self.state.templates.len();

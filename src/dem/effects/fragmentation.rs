@@ -314,7 +314,9 @@ impl Breaker {
     }
 
     pub fn bytes(&self) -> u64 {
-        let own = self.shards.capacity() * size_of::<Option<Shard>>();
+        let own = self.shards.capacity() * size_of::<Option<Shard>>()
+            + self.setup.breakable.capacity() * size_of::<Breakable>()
+            + self.setup.at.capacity() * 16;
         (own + 8 * (self.load.capacity() + self.impulse.capacity())) as u64
     }
 }

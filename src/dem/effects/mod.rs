@@ -87,7 +87,8 @@ impl Touch<'_> {
         let b = tr_mul(&m.turn, &self.arms[1].cross(&self.normal));
         let turned =
             a.dot(&a.component_mul(&m.inertia[0])) + b.dot(&b.component_mul(&m.inertia[1]));
-        1.0 / (m.inverse_mass + turned)
+        let inverse = m.inverse_mass + turned;
+        if inverse > 0.0 { 1.0 / inverse } else { 0.0 }
     }
 }
 

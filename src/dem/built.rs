@@ -1,0 +1,51 @@
+//! Effects that are left out of the library, to weigh what the code of one costs a scene that does not name it:
+//! `MORULA_WITHOUT=gravity cargo build` builds an engine without gravity, which refuses scenes that name it
+//! (`scripts/zero_cost.sh`). Without that variable, as always, all are built.
+
+use super::engine::Setup;
+use super::{CohesionLaw, DampingLaw, TangentialLaw};
+use crate::error::{Error, Result};
+
+/// The one that is left out.
+const WITHOUT: Option<&str> = option_env!("MORULA_WITHOUT");
+
+/// Whether an effect is built.
+pub(crate) const fn built(name: &str) -> bool {
+    let Some(out) = WITHOUT else { return true };
+    let (a, b) = (name.as_bytes(), out.as_bytes());
+    if a.len() != b.len() {
+        return true;
+    }
+    let mut k = 0;
+    while k < a.len() {
+        if a[k] != b[k] {
+            return true;
+        }
+        k += 1;
+    }
+    false
+}
+
+/// Refused: an effect that is not built.
+pub(crate) fn check(name: &str, named: bool) -> Result<()> {
+    if named && !built(name) {
+        return Err(Error::Unsupported(format!("the engine was built without {name}")));
+    }
+    Ok(())
+}
+
+/// Refused: effects that are not built.
+pub(crate) fn check_all(s: &Setup) -> Result<()> {
+    check("gravity", s.gravity.is_some())?;
+    check("drag", s.drag.is_some())?;
+    check("insertion", !s.insertion.is_empty())?;
+    let still = super::WallMotion::Still;
+    check("motion", s.walls.iter().any(|w| w.motion != still))?;
+    let Some(laws) = &s.laws else { return Ok(()) };
+    check("normal", true)?;
+    check("damping", laws.damping != DampingLaw::None)?;
+    check("tangential", laws.tangential != TangentialLaw::None)?;
+    check("rolling", laws.rolling)?;
+    check("cohesion", laws.cohesion != CohesionLaw::None)?;
+    check("averaging", laws.averaging)
+}
