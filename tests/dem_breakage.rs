@@ -1,6 +1,6 @@
 //! The scenes of stones that break: nothing is lost, nothing is gained, pieces keep off each other.
 #![cfg(feature = "dem")]
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use morula::dem::effects::fragmentation::BreakRecord;
 use morula::dem::scene::{BREAK_COLUMNS, Place, Scene, Sink, break_line, build, parse, play};

@@ -1,6 +1,6 @@
 //! A stone that wears flat in place: nothing is lost, nothing is gained, it comes to rest.
 #![cfg(feature = "dem")]
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use morula::dem::effects::wear::WearRecord;
 use morula::dem::scene::{Place, Scene, Sink, WEAR_COLUMNS, build, parse, play, wear_line};

@@ -1,6 +1,6 @@
 //! What a scene does not name does no work and holds no memory: calls and bytes, counted by an allocator of this binary.
 #![cfg(feature = "dem")]
-#![allow(clippy::unwrap_used, unsafe_code)]
+#![allow(clippy::unwrap_used, clippy::print_stdout, unsafe_code)]
 
 use morula::dem::contact::{CohesionLaw, DampingLaw, Laws, NormalLaw, TangentialLaw};
 use morula::dem::effects::fragmentation::{BreakBy, Breakable, Fragmentation, Threshold};
