@@ -22,6 +22,8 @@ mod method;
 mod progress;
 mod sample;
 #[cfg(feature = "dem")]
+mod scenes;
+#[cfg(feature = "dem")]
 mod simulate;
 #[cfg(feature = "dem")]
 mod sweep;
@@ -65,6 +67,9 @@ enum Command {
     /// Simulate rigid clumps as a scene file says
     #[cfg(feature = "dem")]
     Simulate(Box<simulate::Args>),
+    /// Run all scenes of a folder and write what they show, with tables and pictures
+    #[cfg(feature = "dem")]
+    Scenes(Box<scenes::Args>),
 }
 
 fn main() -> ExitCode {
@@ -92,6 +97,8 @@ fn main() -> ExitCode {
         Command::Compare(args) => compare::run(args),
         #[cfg(feature = "dem")]
         Command::Simulate(args) => simulate::run(args),
+        #[cfg(feature = "dem")]
+        Command::Scenes(args) => scenes::run(args),
     };
     match done {
         Ok(()) | Err(Fail::Pipe) => ExitCode::SUCCESS,

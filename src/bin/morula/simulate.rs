@@ -126,7 +126,9 @@ fn many(args: &Args, text: &str, path: &Path) -> Done {
     if args.quiet {
         return Ok(());
     }
-    sweep::print(cases.first().map_or("", |c| &c.file.title), &table)
+    let Some(first) = cases.first() else { return Ok(()) };
+    let over: Vec<bool> = first.file.sweep.iter().map(|s| s.mean).collect();
+    sweep::print(&first.file.title, &table.mean(&over))
 }
 
 /// Which lines of a table stay: by number and text.

@@ -9,6 +9,7 @@ use morula::dem::scene::impacts::{Impacts, impacts};
 use morula::dem::scene::sweep::{Case, columns};
 use morula::dem::scene::{Makes, Place, Scene, Sink, build_with, play};
 use morula::{Error, Result, Run};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -20,6 +21,8 @@ pub struct Table {
     pub figures: Vec<String>,
     /// The runs.
     pub rows: Vec<Row>,
+    /// Processor time of all, clumps that runs share made once.
+    pub seconds: f64,
 }
 
 /// One run.
@@ -64,7 +67,7 @@ pub fn run(cases: &[Case], folder: &Path, threads: usize, bar: &Bar) -> Done<(Ta
     let mut figures = Vec::new();
     let mut rows: Vec<Row> = Vec::new();
     let mut all: Vec<Option<Impacts>> = Vec::new();
-    let mut throws = String::new();
+    let (mut throws, mut seconds) = (String::new(), 0.0);
     for (k, case) in cases.iter().enumerate() {
         let what = case.labels.join(" ");
         bar.set(k as f64 / cases.len() as f64, &what);
@@ -103,6 +106,7 @@ pub fn run(cases: &[Case], folder: &Path, threads: usize, bar: &Bar) -> Done<(Ta
             }
         };
         let running = now() - before;
+        seconds += took + running;
         if k == 0 {
             figures = names;
         } else if figures != names {
@@ -115,7 +119,7 @@ pub fn run(cases: &[Case], folder: &Path, threads: usize, bar: &Bar) -> Done<(Ta
         rows.push(Row { labels, values, spheres, making, running });
         all.push(thrown);
     }
-    let mut table = Table { keys, figures, rows };
+    let mut table = Table { keys, figures, rows, seconds };
     compare(&mut table, cases, &all)?;
     Ok((table, throws))
 }
@@ -149,7 +153,7 @@ fn list(out: &mut String, keys: &[String], case: &Case, found: &Impacts) {
         let before = keys.iter().map(|k| format!("{k},")).collect::<String>();
         let _ = writeln!(out, "{before}throw,tilt,azimuth,vx,vy,vz,wx,wy,wz,contacts");
     }
-    let before = case.labels.iter().map(|k| format!("{k},")).collect::<String>();
+    let before = case.labels.iter().map(|k| format!("{},", quoted(k))).collect::<String>();
     for (k, t) in found.thrown.iter().enumerate() {
         let [tilt, azimuth] =
             t.pose.map_or([String::new(), String::new()], |p| p.map(|v| v.to_string()));
@@ -194,6 +198,64 @@ fn diameter(cases: &[Case], i: usize) -> f64 {
 }
 
 impl Table {
+    /// The column of this name in a row, as a number.
+    pub fn number(&self, row: &Row, column: &str) -> Option<f64> {
+        if let Some(k) = self.keys.iter().position(|c| c == column) {
+            return row.labels.get(k)?.parse().ok();
+        }
+        if let Some(k) = self.figures.iter().position(|c| c == column) {
+            return row.values.get(k).copied()?;
+        }
+        match column {
+            "n" => Some(row.spheres as f64),
+            "generation_s" => Some(row.making),
+            "run_s" => Some(row.running),
+            "time_s" => Some(row.making + row.running),
+            _ => None,
+        }
+    }
+
+    /// Whether a row has these values in these columns.
+    pub fn is(&self, row: &Row, at: &BTreeMap<String, String>) -> bool {
+        at.iter().all(|(column, value)| {
+            let k = self.keys.iter().position(|c| c == column);
+            k.and_then(|k| row.labels.get(k)) == Some(value)
+        })
+    }
+
+    /// The means over the columns that `over` is true for; figures and times alike.
+    pub fn mean(&self, over: &[bool]) -> Table {
+        let keep = |labels: &[String]| -> Vec<String> {
+            let kept = labels.iter().zip(over).filter(|(_, over)| !**over);
+            kept.map(|(l, _)| l.clone()).collect()
+        };
+        let mut table = Table {
+            keys: keep(&self.keys),
+            figures: self.figures.clone(),
+            rows: Vec::new(),
+            seconds: self.seconds,
+        };
+        let mut counts: Vec<f64> = Vec::new();
+        for row in &self.rows {
+            let labels = keep(&row.labels);
+            if let Some(k) = table.rows.iter().position(|r| r.labels == labels) {
+                let (to, n) = (&mut table.rows[k], counts[k]);
+                let step = |a: f64, b: f64| a + (b - a) / (n + 1.0);
+                for (a, b) in to.values.iter_mut().zip(&row.values) {
+                    *a = (*a).zip(*b).map(|(a, b)| step(a, b));
+                }
+                to.making = step(to.making, row.making);
+                to.running = step(to.running, row.running);
+                counts[k] += 1.0;
+            } else {
+                let values = row.values.clone();
+                table.rows.push(Row { labels, values, ..*row });
+                counts.push(1.0);
+            }
+        }
+        table
+    }
+
     fn head(&self) -> Vec<String> {
         let own = |s: &str| s.to_owned();
         let (keys, figures) = (self.keys.iter().cloned(), self.figures.iter().cloned());
@@ -244,6 +306,11 @@ impl Table {
         let rows = self.rows.iter().map(|r| self.cells(r, show));
         std::iter::once(self.head()).chain(rows).collect()
     }
+}
+
+/// Values may be arrays.
+fn quoted(cell: &str) -> String {
+    if cell.contains(',') { format!("\"{cell}\"") } else { cell.to_owned() }
 }
 
 /// Columns of one width each.

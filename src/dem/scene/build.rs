@@ -399,6 +399,7 @@ fn mesh(i: usize, part: &MeshPart, folder: &Path, run: &Run) -> Result<WallShape
         segments: part.segments,
         file: part.file.as_deref(),
         scale: part.scale,
+        stretch: None,
     };
     let shape = source.shape(folder, run).map_err(|e| e.about(&format!("wall {i}")))?;
     match shape.body.as_ref() {

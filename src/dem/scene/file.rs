@@ -1,6 +1,7 @@
 //! What a scene file may say. Lengths, masses and times are in any one system of units.
 
 use super::impacts::ImpactsPart;
+use super::shows::{PlotPart, ShowPart};
 use super::sweep::SweepPart;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -48,6 +49,12 @@ pub struct SceneFile {
     /// Many runs instead of one: every combination of what these list.
     #[serde(default)]
     pub sweep: Vec<SweepPart>,
+    /// Figures that it is there for, beside their references.
+    #[serde(default)]
+    pub shows: Vec<ShowPart>,
+    /// Pictures of its table.
+    #[serde(default)]
+    pub plots: Vec<PlotPart>,
     /// What of all this a quick run has differently.
     #[serde(default)]
     pub quick: toml::Table,
@@ -265,9 +272,15 @@ pub struct TemplatePart {
     pub segments: usize,
     /// A mesh or voxel file instead.
     pub file: Option<String>,
+    /// Or given spheres, of which the body is the union: a file of a clump, in any format that `morula export` writes.
+    pub spheres_file: Option<String>,
+    /// Or a flat grid of equal spheres.
+    pub grid: Option<GridPart>,
     /// What its lengths are multiplied by.
     #[serde(default = "one")]
     pub scale: f64,
+    /// What the lengths of a built-in particle are multiplied by along x, y, z, beside that.
+    pub stretch: Option<[f64; 3]>,
     /// Cells of the grid along the longest edge.
     #[serde(default = "cells")]
     pub cells: u32,
@@ -290,6 +303,18 @@ pub struct TemplatePart {
     pub inertia: TargetName,
     /// The material of bodies that are made of it.
     pub material: String,
+}
+
+/// Equal spheres in rows and columns, their centres in the plane z = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GridPart {
+    /// Along x, and along y.
+    pub count: [u32; 2],
+    /// From centre to centre.
+    pub spacing: f64,
+    /// Of each sphere.
+    pub radius: f64,
 }
 
 fn edges() -> usize {

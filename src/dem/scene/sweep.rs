@@ -23,6 +23,9 @@ pub struct SweepPart {
     /// Or cases.
     #[serde(default)]
     pub cases: Vec<CasePart>,
+    /// Whether what is shown is the mean over them: seeds, poses.
+    #[serde(default)]
+    pub mean: bool,
 }
 
 /// Values at several paths that belong together.

@@ -1,6 +1,7 @@
 //! The clumps of a scene.
 
 use super::file::{EffortName, MethodName, TargetName, TemplatePart};
+use super::given::given;
 use crate::dem::Template;
 use crate::error::{Error, Result, figure, push};
 use crate::generate::{Effort, GenerateOptions, Method, generate};
@@ -56,21 +57,33 @@ impl Makes {
 
 fn make(name: &str, part: &TemplatePart, keep: bool, folder: &Path, run: &Run) -> Result<Made> {
     let bad = |what: String| Err(Error::InvalidArgument(format!("the template {name} {what}")));
-    let choices = [part.ball.is_some(), part.shape.is_some(), part.file.is_some()];
+    let choices = [
+        part.ball.is_some(),
+        part.shape.is_some(),
+        part.file.is_some(),
+        part.spheres_file.is_some(),
+        part.grid.is_some(),
+    ];
     if choices.iter().filter(|c| **c).count() != 1 {
-        return bad("needs one of ball, shape and file".into());
+        return bad("needs one of ball, shape, file, spheres_file and grid".into());
     }
     if !(part.density.is_finite() && part.density > 0.0) {
         return bad(format!("has the density {}, not a number above 0", figure(part.density)));
     }
     let whose = |e: Error| e.about(&format!("template {name}"));
-    if let Some(radius) = part.ball {
-        if !(radius.is_finite() && radius > 0.0) {
-            return bad(format!("is a ball of radius {}, not a number above 0", figure(radius)));
+    if let Some(radius) = part.ball.filter(|r| !(r.is_finite() && *r > 0.0)) {
+        return bad(format!("is a ball of radius {}, not a number above 0", figure(radius)));
+    }
+    if let Some((spheres, body)) = given(part, folder, run).map_err(whose)? {
+        if keep {
+            return bad("is of given spheres, not of a shape that could break".into());
         }
-        let spheres = vec![Sphere::new(crate::math::Vec3::zeros(), radius)];
-        let template = Arc::new(Template::ball(radius, part.density).map_err(whose)?);
-        let body = Body::of_union(&spheres, part.density, run).map_err(whose)?;
+        let template = match part.ball {
+            Some(radius) => Template::ball(radius, part.density),
+            None => Template::of_body(&spheres, &body),
+        };
+        let template = Arc::new(template.map_err(whose)?);
+        let spheres = body.to_body(&spheres);
         return Ok(Made { name: name.to_owned(), template, spheres, body, source: None });
     }
     let source = Source {
@@ -79,6 +92,7 @@ fn make(name: &str, part: &TemplatePart, keep: bool, folder: &Path, run: &Run) -
         segments: part.segments,
         file: part.file.as_deref(),
         scale: part.scale,
+        stretch: part.stretch,
     };
     let shape = source.shape(folder, run).map_err(whose)?;
     let resolution = Resolution::CellsLongest(part.cells);
@@ -125,15 +139,30 @@ pub(super) struct Source<'a> {
     pub segments: usize,
     pub file: Option<&'a str>,
     pub scale: f64,
+    pub stretch: Option<[f64; 3]>,
 }
 
 impl Source<'_> {
     pub(super) fn shape(&self, folder: &Path, run: &Run) -> Result<Shape> {
         let import = ImportOptions { length_unit: self.scale, ..ImportOptions::default() };
         let Some(name) = self.shape else {
+            if self.stretch.is_some() {
+                return Err(Error::Unsupported("only built-in particles are stretched".into()));
+            }
             return from_file(&folder.join(self.file.unwrap_or_default()), &import, run);
         };
-        Shape::from_primitive(&self.particle(name)?, self.segments, &import, run)
+        let Some(stretch) = self.stretch else {
+            return Shape::from_primitive(&self.particle(name)?, self.segments, &import, run);
+        };
+        if let Some(f) = stretch.iter().find(|f| !(f.is_finite() && **f > 0.0)) {
+            let f = figure(*f);
+            return Err(Error::InvalidArgument(format!("stretch has {f}, not a number above 0")));
+        }
+        let (mut vertices, faces) = self.particle(name)?.mesh(self.segments)?;
+        for v in &mut vertices {
+            (0..3).for_each(|k| v[k] *= stretch[k]);
+        }
+        Shape::from_mesh(&vertices, &faces, &import, run)
     }
 
     fn particle(&self, name: &str) -> Result<Primitive> {
@@ -147,8 +176,8 @@ impl Source<'_> {
     /// The body by the formulas of its shape.
     fn exact(&self, density: f64) -> Result<Body> {
         let moments = match self.shape {
-            Some(name) => self.particle(name)?.moments(),
-            None => None,
+            Some(name) if self.stretch.is_none() => self.particle(name)?.moments(),
+            _ => None,
         };
         let Some(m) = moments else {
             return Err(Error::Unsupported("there are no formulas for its inertia".into()));

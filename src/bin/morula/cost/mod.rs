@@ -3,7 +3,7 @@
 mod list;
 mod page;
 mod papers;
-mod picture;
+pub mod picture;
 mod table;
 
 use crate::compare::entry::Entry;

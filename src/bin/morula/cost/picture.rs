@@ -119,7 +119,7 @@ fn draw(
 }
 
 /// A number as it is read best.
-fn label(x: &f64) -> String {
+pub fn label(x: &f64) -> String {
     if *x >= 0.001 && *x < 1e6 {
         let digits = (-x.log10().floor()).max(0.0) as usize;
         format!("{x:.digits$}")

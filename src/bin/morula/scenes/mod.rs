@@ -1,0 +1,195 @@
+//! `morula scenes`: every scene of a folder, and one page of what they show.
+
+mod page;
+mod picture;
+
+use crate::compare::cpu;
+use crate::fail::{About, Done, Fail};
+use crate::input::parse::whole;
+use crate::progress::Bar;
+use crate::sweep::{self, Row, Table};
+use crate::write;
+use morula::dem::scene::shows::ShowPart;
+use morula::dem::scene::sweep::{Case, cases};
+use morula::dem::scene::{Place, SceneFile, Sink, build, play};
+use morula::{Result, Run};
+use std::path::{Path, PathBuf};
+
+/// Runs all scenes of a folder and writes what they show: index.md with each figure beside its reference and the processor time
+/// that it took, NAME.csv of every run, NAME.svg of what the scene draws.
+///
+/// All but the times is the same on every run.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Folder of scene files
+    #[arg(default_value = "scenes")]
+    folder: String,
+    /// Their quick variants
+    #[arg(long)]
+    quick: bool,
+    /// Only the scene of this name; may be given more than once
+    #[arg(long, value_name = "NAME")]
+    only: Vec<String>,
+    /// Folder to write into; it is made where there is none
+    #[arg(short, long, value_name = "DIR", default_value = "docs/scenes")]
+    output: String,
+    /// Threads; 0: all cores. The figures do not depend on it
+    #[arg(long, default_value_t = 1, value_parser = whole::<usize>)]
+    threads: usize,
+    /// No progress bar, no table
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// A scene that has run.
+pub struct Shown {
+    /// The name of its file.
+    pub name: String,
+    /// What the file says.
+    pub file: SceneFile,
+    /// All runs, or the one; then with its lines of measures.
+    pub table: Table,
+    /// Whether it is a sweep.
+    pub many: bool,
+    /// Lines of measures of the one run.
+    pub lines: Vec<Vec<Option<f64>>>,
+}
+
+/// All lines of measures.
+struct Lines(Vec<Vec<Option<f64>>>);
+
+impl Sink for Lines {
+    fn row(&mut self, values: &[Option<f64>]) -> Result<()> {
+        self.0.push(values.to_vec());
+        Ok(())
+    }
+    fn frame(&mut self, _: u64, _: &str) -> Result<()> {
+        Ok(())
+    }
+    fn checkpoint(&mut self, _: u64, _: &[u8]) -> Result<()> {
+        Ok(())
+    }
+    fn at(&mut self, _: &Place) -> bool {
+        true
+    }
+}
+
+pub fn run(args: &Args) -> Done {
+    let folder = Path::new(&args.folder);
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(|e| Fail::file(folder, e))? {
+        let path = entry.map_err(|e| Fail::file(folder, e))?.path();
+        let name = path.file_stem().and_then(|n| n.to_str()).unwrap_or_default().to_owned();
+        let wanted = args.only.is_empty() || args.only.contains(&name);
+        if wanted && path.extension().is_some_and(|e| e == "toml") {
+            files.push((name, path));
+        }
+    }
+    files.sort();
+    if let Some(missing) = args.only.iter().find(|o| !files.iter().any(|f| f.0 == **o)) {
+        return Err(Fail::Usage(format!("there is no scene {missing} in {}", args.folder)));
+    }
+    if files.is_empty() {
+        return Err(Fail::Usage(format!("there is no scene in {}", args.folder)));
+    }
+    let out = Path::new(&args.output);
+    std::fs::create_dir_all(out).map_err(|e| Fail::file(out, e))?;
+    let mut all = Vec::new();
+    for (name, path) in &files {
+        let bar = Bar::new(name, args.quiet);
+        let shown = one(name, path, folder, args, &bar)?;
+        drop(bar);
+        save(&shown, out)?;
+        all.push(shown);
+    }
+    let page = page::page(&all, args.quick);
+    put(&out.join("index.md"), &page)?;
+    if args.quiet {
+        return Ok(());
+    }
+    write::to_terminal(|to| to.write_all(page.as_bytes()))
+}
+
+fn one(name: &str, path: &PathBuf, folder: &Path, args: &Args, bar: &Bar) -> Done<Shown> {
+    let said = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|e| Fail::file(path, e))?;
+    let cases: Vec<Case> = cases(&text, args.quick, &[]).about(&said)?;
+    let file = match cases.first() {
+        Some(case) => case.file.clone(),
+        None => return Err(Fail::Usage(format!("{said} asks for no run"))),
+    };
+    let many = file.impacts.is_some() || !file.sweep.is_empty();
+    let name = name.to_owned();
+    if many {
+        let (table, _) = sweep::run(&cases, folder, args.threads, bar)?;
+        return Ok(Shown { name, file, table, many, lines: Vec::new() });
+    }
+    let now = || cpu::seconds().unwrap_or_default();
+    let run = Run::new(args.threads).about("--threads")?.with_seed(file.run.seed);
+    let before = now();
+    let mut scene = build(&file, folder, &run).about(&said)?;
+    let making = now() - before;
+    let mut lines = Lines(Vec::new());
+    let before = now();
+    play(&mut scene, &mut lines, &run).about(&said)?;
+    let running = now() - before;
+    let state = scene.engine.state();
+    let spheres = (0..state.len()).map(|i| state.template_of(i).spheres().len() as u64).sum();
+    let figures = scene.watch.names().to_vec();
+    let values = lines.0.last().cloned().unwrap_or_default();
+    let rows = vec![Row { labels: Vec::new(), values, spheres, making, running }];
+    Ok(Shown {
+        name,
+        file,
+        table: Table { keys: Vec::new(), figures, rows, seconds: making + running },
+        many,
+        lines: lines.0,
+    })
+}
+
+impl Shown {
+    /// The table that is shown: means over seeds and the like.
+    pub fn means(&self) -> Table {
+        let over: Vec<bool> = self.file.sweep.iter().map(|s| s.mean).collect();
+        self.table.mean(&over)
+    }
+
+    /// The figure that a scene is there for; `None` where this variant has no such run.
+    pub fn figure(&self, show: &ShowPart) -> Option<f64> {
+        if self.many {
+            let table = self.means();
+            let row = table.rows.iter().find(|r| table.is(r, &show.at))?;
+            return table.number(row, &show.figure).map(|v| v * show.times);
+        }
+        let k = self.table.figures.iter().position(|f| *f == show.figure)?;
+        let values: Vec<f64> = self.lines.iter().filter_map(|l| *l.get(k)?).collect();
+        show.of.of(&values).map(|v| v * show.times)
+    }
+}
+
+fn put(path: &Path, text: &str) -> Done {
+    std::fs::write(path, text).map_err(|e| Fail::file(path, e))
+}
+
+fn save(shown: &Shown, out: &Path) -> Done {
+    let csv = if shown.many {
+        shown.table.csv()
+    } else {
+        let mut csv = shown.table.figures.join(",") + "\n";
+        for line in &shown.lines {
+            let cells: Vec<String> =
+                line.iter().map(|v| v.map_or(String::new(), |v| format!("{v:?}"))).collect();
+            csv += &(cells.join(",") + "\n");
+        }
+        csv
+    };
+    put(&out.join(format!("{}.csv", shown.name)), &csv)?;
+    if shown.file.plots.is_empty() {
+        return Ok(());
+    }
+    let svg = picture::svg(shown).map_err(|e| Fail::Library {
+        error: morula::Error::InvalidArgument(e.to_string()),
+        about: shown.name.clone(),
+    })?;
+    put(&out.join(format!("{}.svg", shown.name)), &svg)
+}

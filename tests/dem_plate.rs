@@ -1,0 +1,73 @@
+//! Many coplanar contacts at once: stability, and what the advice says of it.
+#![cfg(feature = "dem")]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use morula::dem::advice::advise;
+use morula::dem::{
+    Coefficients, Engine, Laws, NormalLaw, Placed, Setup, State, Template, WallSetup, WallShape,
+};
+use morula::math::Vec3;
+use morula::{Run, Sphere};
+use std::sync::Arc;
+
+/// A plate of n by n spheres side by side, of the same mass and moments as a plate of such edges.
+fn plate(n: u32) -> Template {
+    let place = |i: u32| (f64::from(i) - 0.5 * f64::from(n - 1)) * 2.0 / f64::from(n);
+    let spheres: Vec<Sphere> = (0..n * n)
+        .map(|k| Sphere::new(Vec3::new(place(k % n), place(k / n), 0.0), 1.0 / f64::from(n)))
+        .collect();
+    Template::new(&spheres, 1.0, [1.0 / 3.0, 1.0 / 3.0, 2.0 / 3.0]).unwrap()
+}
+
+fn at_rest(n: u32, averaging: bool, stiffness: f64) -> (State, Setup) {
+    let mut state = State::new(vec![Arc::new(plate(n))]);
+    // A tenth less deep than it rests.
+    let springs = if averaging { 1.0 } else { f64::from(n * n) };
+    let height = 1.0 / f64::from(n) - 0.9 * 10.0 / (springs * stiffness);
+    state.add(&Placed::at(Vec3::new(0.0, 0.0, height))).unwrap();
+    let laws = Laws { averaging, ..Laws::elastic(NormalLaw::Linear) };
+    let setup = Setup {
+        laws: Some(laws),
+        coefficients: vec![Coefficients { stiffness, ..Coefficients::default() }],
+        walls: vec![WallSetup::still(WallShape::Plane { normal: Vec3::z(), offset: 0.0 })],
+        gravity: Some(Vec3::new(0.0, 0.0, -10.0)),
+        guard: false,
+        ..Setup::free(1e-3)
+    };
+    (state, setup)
+}
+
+/// Whether a plate that rests on a wall comes to jump in 300 steps of this length.
+fn jumps(n: u32, averaging: bool, stiffness: f64, dt: f64) -> bool {
+    let (state, setup) = at_rest(n, averaging, stiffness);
+    let from = state.position[0].z;
+    let mut engine = Engine::new(Setup { dt, ..setup }, state).unwrap();
+    engine.advance(300, &Run::serial()).unwrap();
+    let springs = if averaging { 1.0 } else { f64::from(n * n) };
+    let moved = (engine.state().position[0].z - from).abs();
+    !moved.is_finite() || moved > 10.0 * 10.0 / (springs * stiffness)
+}
+
+#[test]
+fn the_advice_stays_below_the_step_at_which_many_contacts_jump() {
+    let stiffness = 1e4;
+    for (n, averaging) in [(2, false), (3, false), (10, false), (30, false), (3, true), (30, true)]
+    {
+        let springs = if averaging { 1.0 } else { f64::from(n * n) };
+        let formula = 2.0 / (springs * stiffness).sqrt();
+        let (mut low, mut high) = (0.2 * formula, 5.0 * formula);
+        assert!(!jumps(n, averaging, stiffness, low) && jumps(n, averaging, stiffness, high));
+        for _ in 0..20 {
+            let middle = (low * high).sqrt();
+            if jumps(n, averaging, stiffness, middle) { high = middle } else { low = middle }
+        }
+        // Of n springs on one mass.
+        assert!((low / formula - 1.0).abs() < 0.05, "{n} {averaging}: {low} {formula}");
+        let (state, setup) = at_rest(n, averaging, stiffness);
+        let laws = setup.laws.unwrap();
+        let advice = advise(&laws, &setup.coefficients, &state, 1.0, n * n).unwrap().unwrap();
+        // The advice is for two equal bodies (a factor of √2), each met at its worst place, the corner; all
+        // contacts at once are at none.
+        assert!((1.4..4.0).contains(&(low / advice.limit)), "{n}: {low} {advice:?}");
+    }
+}
