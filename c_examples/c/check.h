@@ -1,7 +1,12 @@
-/* What the test programs share: counting checks, and a body without symmetry. */
+/* What the test programs share: counting checks, floating-point traps, and a body without symmetry. */
 #ifndef CHECK_H
 #define CHECK_H
 
+#ifndef _GNU_SOURCE
+#define _GNU_SOURCE /* feenableexcept */
+#endif
+
+#include <fenv.h>
 #include <math.h>
 #include <morula.h>
 #include <stdint.h>
@@ -9,6 +14,13 @@
 #include <string.h>
 
 static int checks_made, checks_failed;
+
+#ifdef __GLIBC__
+/* As many solvers run: an invalid operation, a division by zero or an overflow ends the program. */
+__attribute__((constructor)) static void set_traps(void) {
+  feenableexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
+}
+#endif
 
 #define CHECK(condition)                                                      \
   do {                                                                        \

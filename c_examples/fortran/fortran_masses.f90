@@ -88,6 +88,7 @@ program fortran_masses
   call placed%create(clump, options, status)
   call check(status == MORULA_STATUS_INVALID_ARGUMENT, 'no density')
   call check(.not. c_associated(placed%c_handle()), 'nothing is made')
+  call every_method()
   call body%destroy()
   call placed%destroy()
   deallocate (xyzr, single, binding)
@@ -106,6 +107,36 @@ contains
     failed = failed + 1
     write (error_unit, '(5a)') 'not so: ', what, ' (last message: "', morula_message(), '")'
   end subroutine check
+
+  !> Every method makes spheres, weighs and writes them, or refuses the stone; none springs a trap.
+  subroutine every_method()
+    integer(c_int32_t), parameter :: methods(10) = [MORULA_METHOD_MSS, MORULA_METHOD_BEST, &
+      MORULA_METHOD_SURFACE_FIT, MORULA_METHOD_INSCRIBED, MORULA_METHOD_COVER, &
+      MORULA_METHOD_PACKED, MORULA_METHOD_EUCLIDEAN, MORULA_METHOD_FERELLEC_MCDOWELL, &
+      MORULA_METHOD_FAVIER, MORULA_METHOD_UNIFORM_GRID]
+    type(morula_clump_t) :: other
+    type(morula_clump_options) :: asked
+    integer :: k, good
+    good = 0
+    do k = 1, 10
+      call morula_init(asked)
+      asked%spheres = 12
+      asked%method = methods(k)
+      call other%create(shape, clump_options=asked, status=status)
+      call check(status /= MORULA_STATUS_INTERNAL, 'a method')
+      if (status /= MORULA_STATUS_OK) cycle
+      good = good + 1
+      options%density = 2500.0_c_double
+      options%infeasible = MORULA_INFEASIBLE_LEAST_ERROR
+      call placed%create(other, options, status)
+      call check(status == MORULA_STATUS_OK, 'its masses')
+      call placed%write(MORULA_EXPORT_CSV, 'fortran_method.csv')
+      open (newunit=unit, file='fortran_method.csv', status='old')
+      close (unit, status='delete')
+    end do
+    call check(good >= 9, 'nearly all methods take a stone')
+    call other%destroy()
+  end subroutine every_method
 
   !> The files of a format in memory, through the first layer.
   subroutine in_memory()
