@@ -1,6 +1,7 @@
 //! Why the program ends: usage, a failure of the library, or a closed pipe.
 
 use morula::Error;
+use morula::error::count;
 use std::fmt;
 use std::path::Path;
 
@@ -13,6 +14,8 @@ pub enum Fail {
     Usage(String),
     /// The library refused; `about` is the file concerned.
     Library { error: Error, about: String },
+    /// So many cases of the self-test missed their bounds.
+    Missed(usize),
     /// The reader of our output went away: not an error.
     Pipe,
 }
@@ -21,7 +24,7 @@ impl Fail {
     pub fn exit_code(&self) -> u8 {
         match self {
             Fail::Usage(_) => 2,
-            Fail::Library { .. } => 1,
+            Fail::Library { .. } | Fail::Missed(_) => 1,
             Fail::Pipe => 0,
         }
     }
@@ -64,6 +67,7 @@ impl fmt::Display for Fail {
                 }
                 write!(f, "{text} [{}]", status_name(error))
             }
+            Fail::Missed(n) => write!(f, "{} missed", count(*n as u64, "case")),
             Fail::Pipe => Ok(()),
         }
     }

@@ -21,10 +21,12 @@ mod measure;
 mod method;
 mod progress;
 mod sample;
+mod selftest;
 #[cfg(feature = "dem")]
 mod scenes;
 #[cfg(feature = "dem")]
 mod simulate;
+mod stability;
 #[cfg(feature = "dem")]
 mod sweep;
 mod view;
@@ -64,6 +66,8 @@ enum Command {
     Cost(Box<cost::Args>),
     /// Make clumps of a shape by every method, side by side in a table and a picture
     Compare(Box<compare::Args>),
+    /// Run hard cases, each held to its bound, and print them as a table; 1 on any miss
+    Selftest(Box<selftest::Args>),
     /// Simulate rigid clumps as a scene file says
     #[cfg(feature = "dem")]
     Simulate(Box<simulate::Args>),
@@ -95,6 +99,7 @@ fn main() -> ExitCode {
         Command::View(args) => view::run(args),
         Command::Cost(args) => cost::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Selftest(args) => selftest::run(args),
         #[cfg(feature = "dem")]
         Command::Simulate(args) => simulate::run(args),
         #[cfg(feature = "dem")]

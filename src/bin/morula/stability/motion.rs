@@ -1,0 +1,212 @@
+//! Many steps over: rotation, a resting stack, a gas of clumps.
+
+use super::{About, Bound, Found, Matrix, Miss};
+use morula::dem::{
+    Coefficients, DampingLaw, Engine, Laws, NormalLaw, Placed, Setup, State, TangentialLaw,
+    Template, WallSetup, WallShape, effects::damping, energy,
+};
+use morula::math::{Sphere, Vec3};
+use morula::run::Run;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+const MOMENTUM: About = About {
+    measure: "greatest |L/L0 - 1|",
+    bound: Bound::AtMost(1e-11),
+    why: "angular momentum is carried, the turn is summed with its rounding",
+};
+
+const TURNING: About = About {
+    measure: "greatest |E/E0 - 1|",
+    bound: Bound::AtMost(1e-9),
+    why: "the turn between forces is exact, so that only rounding is left",
+};
+
+const TINY: About = About {
+    measure: "|angle / exact - 1|",
+    bound: Bound::AtMost(1e-6),
+    why: "turns far below a rounding of the orientation still add up",
+};
+
+const CREEP: About = About {
+    measure: "greatest displacement, in diameters",
+    bound: Bound::AtMost(1e-6),
+    why: "what rests goes on resting",
+};
+
+const GAS: About = About {
+    measure: "greatest |E/E0 - 1| at a fiftieth of the contact time",
+    bound: Bound::AtMost(1e-4),
+    why: "a closed elastic gas keeps its energy",
+};
+
+const FALLS: About = About {
+    measure: "observed order in dt",
+    bound: Bound::AtLeast(1.7),
+    why: "leapfrog and splitting are of second order",
+};
+
+pub fn run(m: &mut Matrix) {
+    rotation(m);
+    stack(m);
+    gas(m);
+}
+
+/// A T-bar about its middle axis, which it cannot hold.
+fn rotation(m: &mut Matrix) {
+    let steps: u64 = if m.full { 10_000_000 } else { 200_000 };
+    let found = tumbling(steps);
+    let name = format!("free rotation, {steps} steps");
+    let (l, e) = match found {
+        Ok(found) => found,
+        Err(miss) => return m.case(name, &MOMENTUM, || Err(miss)),
+    };
+    m.case(name.clone(), &MOMENTUM, || Ok(l));
+    m.case(name, &TURNING, || Ok(e));
+    m.case(format!("1e-12 rad a step, {steps} steps"), &TINY, || tiny(steps));
+}
+
+fn tumbling(steps: u64) -> Result<(f64, f64), Miss> {
+    let moments = [7.843, 15.257, 22.574];
+    let template = Template::new(&[Sphere::new(Vec3::zeros(), 0.5)], 5.2438, moments)?;
+    let mut state = State::new(vec![Arc::new(template)]);
+    let angular_velocity = Vec3::new(0.02, 2.0, 0.01);
+    state.add(&Placed { angular_velocity, ..Placed::at(Vec3::zeros()) })?;
+    let mut e = Engine::new(Setup { exact_rotation: true, ..Setup::free(0.01) }, state)?;
+    let run = Run::serial();
+    let spin = |e: &Engine| -> (Vec3, f64) {
+        let turn = e.state().orientation[0].matrix();
+        let own = turn.transpose() * e.state().angular_velocity(0);
+        let l = turn * own.component_mul(&Vec3::from(moments));
+        (l, energy::kinetic(e.state())[1])
+    };
+    let (l0, e0) = spin(&e);
+    let (mut worst_l, mut worst_e) = (0.0f64, 0.0f64);
+    for _ in 0..100 {
+        e.advance(steps / 100, &run)?;
+        let (l, energy) = spin(&e);
+        worst_l = worst_l.max((l - l0).norm() / l0.norm());
+        worst_e = worst_e.max((energy / e0 - 1.0).abs());
+    }
+    Ok((worst_l, worst_e))
+}
+
+fn tiny(steps: u64) -> Found {
+    let template = Template::new(&[Sphere::new(Vec3::zeros(), 1.0)], 1.0, [0.4; 3])?;
+    let mut state = State::new(vec![Arc::new(template)]);
+    let rate = 1e-12;
+    let angular_velocity = Vec3::new(0.0, 0.0, rate);
+    state.add(&Placed { angular_velocity, ..Placed::at(Vec3::zeros()) })?;
+    let mut e = Engine::new(Setup::free(1.0), state)?;
+    e.advance(steps, &Run::serial())?;
+    let q = &e.state().orientation[0];
+    // About z from rest: the half angle is the third of the vector's parts.
+    super::accumulation::off(2.0 * (q.quaternion[3] + q.rest[3]), rate * steps as f64)
+}
+
+fn plane() -> WallSetup {
+    WallSetup::still(WallShape::Plane { normal: Vec3::z(), offset: 0.0 })
+}
+
+/// Bricks of 3 × 3 overlapping spheres of radius 1 cm, on each other on a floor.
+fn stack(m: &mut Matrix) {
+    let steps: u64 = if m.full { 1_000_000 } else { 20_000 };
+    m.case(format!("three bricks at rest, {steps} steps"), &CREEP, || {
+        let r = 0.01;
+        let at = |k: usize| Vec3::new((k % 3) as f64 - 1.0, (k / 3) as f64 - 1.0, 0.0) * r;
+        let spheres: Vec<Sphere> = (0..9).map(|k| Sphere::new(at(k), r)).collect();
+        let mass = 0.05;
+        let i = mass * r * r;
+        let brick = Template::new(&spheres, mass, [i, i, 1.4 * i])?;
+        let mut state = State::new(vec![Arc::new(brick)]);
+        for k in 0..3 {
+            state.add(&Placed::at(Vec3::new(0.0, 0.0, r * (1.0 + 2.0 * f64::from(k)))))?;
+        }
+        let laws = Laws {
+            damping: DampingLaw::Contact,
+            tangential: TangentialLaw::Mindlin,
+            ..Laws::elastic(NormalLaw::Linear)
+        };
+        let mut setup = Setup { laws: Some(laws), walls: vec![plane()], ..Setup::free(1e-5) };
+        setup.gravity = Some(Vec3::new(0.0, 0.0, -9.81));
+        setup.coefficients[0] = Coefficients {
+            stiffness: 1e4,
+            shear: 8e3,
+            damping: 2.0 * damping::ratio(0.3),
+            tangential_damping: 1.0,
+            friction: 0.4,
+            ..Coefficients::default()
+        };
+        let mut e = Engine::new(setup, state)?;
+        let run = Run::serial();
+        e.advance(20_000, &run)?;
+        let before = e.state().position.clone();
+        let mut most = 0.0f64;
+        for _ in 0..100 {
+            e.advance(steps / 100, &run)?;
+            let moved = before.iter().zip(&e.state().position).map(|(a, b)| (a - b).norm());
+            most = moved.fold(most, f64::max);
+        }
+        Ok(most / (2.0 * r))
+    });
+}
+
+/// 27 dumb-bells and their like in a box, elastic; greatest error of the energy over a time.
+fn drift(dt: f64, steps: u64) -> Found {
+    let r = 0.3;
+    let spheres = [
+        Sphere::new(Vec3::new(-0.25, 0.05, 0.0), r),
+        Sphere::new(Vec3::new(0.25, 0.05, 0.0), r),
+        Sphere::new(Vec3::new(0.0, -0.1, 0.1), 0.8 * r),
+    ];
+    let template = Template::new(&spheres, 1.0, [0.05, 0.09, 0.1])?;
+    let mut state = State::new(vec![Arc::new(template)]);
+    for k in 0..27u32 {
+        let at = |a: u32| f64::from(k / 3u32.pow(a) % 3) * 1.6 - 1.6;
+        let turned = |a: u32| f64::from((k * 7 + a * 5) % 13) / 6.5 - 1.0;
+        state.add(&Placed {
+            rotation: [0.4, turned(0), turned(1), turned(2)],
+            velocity: Vec3::new(turned(3), turned(5), turned(8)),
+            angular_velocity: Vec3::new(turned(4), turned(6), turned(7)),
+            ..Placed::at(Vec3::new(at(0), at(1), at(2)))
+        })?;
+    }
+    let wall = WallShape::Box { lo: Vec3::repeat(-2.6), hi: Vec3::repeat(2.6) };
+    let mut setup = Setup {
+        laws: Some(Laws::elastic(NormalLaw::Linear)),
+        walls: vec![WallSetup::still(wall)],
+        ..Setup::free(dt)
+    };
+    setup.coefficients[0] = Coefficients { stiffness: STIFFNESS, ..Coefficients::default() };
+    let mut e = Engine::new(setup, state)?;
+    let run = Run::serial();
+    e.start(&run)?;
+    let total = |e: &Engine| {
+        let [a, b] = energy::kinetic(e.state());
+        a + b + e.contacts().iter().flatten().map(|c| c.energy).sum::<f64>()
+    };
+    let first = total(&e);
+    let mut worst = 0.0f64;
+    for _ in 0..200 {
+        e.advance(steps / 200, &run)?;
+        worst = worst.max((total(&e) / first - 1.0).abs());
+    }
+    Ok(worst)
+}
+
+const STIFFNESS: f64 = 1e5;
+
+/// Two of mass 1 in contact: π √(m/2k).
+fn contact_time() -> f64 {
+    PI * (0.5 / STIFFNESS).sqrt()
+}
+
+fn gas(m: &mut Matrix) {
+    let steps: u64 = if m.full { 1_000_000 } else { 20_000 };
+    let dt = contact_time() / 50.0;
+    m.case(format!("gas of 27 clumps, {steps} steps"), &GAS, || drift(dt, steps));
+    m.case("gas of 27 clumps, a fiftieth and a two-hundredth", &FALLS, || {
+        let steps = steps.min(100_000);
+        Ok((drift(dt, steps)? / drift(0.25 * dt, 4 * steps)?).log2() / 2.0)
+    });
+}
