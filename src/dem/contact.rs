@@ -104,6 +104,8 @@ pub(crate) struct Motion {
     /// 1/m_a + 1/m_b, and one over that.
     pub inverse_mass: f64,
     pub mass: f64,
+    /// What dashpots are multiplied by: less than 1 where many springs are averaged that did not come at once.
+    pub ease: f64,
 }
 
 /// What a contact does.
@@ -191,7 +193,7 @@ impl<N: Normal, D: Damping, T: Tangential, R: Rolling, C: Cohesion> Law
         if D::ON {
             calls.damping += 1;
             let mass = if felt { t.felt_mass() } else { t.motion.mass };
-            damper = dashpot(c, mass, e.stiffness);
+            damper = t.motion.ease * dashpot(c, mass, e.stiffness);
             // The dashpot never makes a contact pull.
             force = (force - damper * t.velocity.dot(&t.normal)).max(e.force.min(0.0));
         }

@@ -153,6 +153,7 @@ impl Visitor for Exact<'_> {
                     inertia: [Vec3::zeros(), *throw.template.inverse()],
                     inverse_mass: throw.template.inverse_mass(),
                     mass: throw.template.mass(),
+                    ease: 1.0,
                 };
                 let touch = Touch {
                     normal: n,

@@ -198,6 +198,7 @@ impl Pair {
             inverse_mass,
             // A body that is fixed against a wall has none to damp.
             mass: if inverse_mass > 0.0 { 1.0 / inverse_mass } else { 0.0 },
+            ease: if built("averaging") && context.averaging { self.average.ease() } else { 1.0 },
         };
         let used = moved - self.made + context.range;
         let spheres = body.spheres();
