@@ -21,9 +21,9 @@ mod measure;
 mod method;
 mod progress;
 mod sample;
-mod selftest;
 #[cfg(feature = "dem")]
 mod scenes;
+mod selftest;
 #[cfg(feature = "dem")]
 mod simulate;
 mod stability;
