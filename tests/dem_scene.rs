@@ -169,7 +169,7 @@ fn the_scenes_of_the_project_are_sound() {
         }
         seen += 1;
     }
-    assert!(seen >= 2);
+    assert!(seen >= 8);
 }
 
 const BED: &str = r#"
@@ -295,4 +295,88 @@ fn shares_are_of_what_is_named() {
     assert!((found.iter().map(|s| s.part).sum::<f64>() - 1.0).abs() < 1e-12, "{found:?}");
     assert!(found.iter().all(|s| (0.0..=1.0).contains(&s.part)), "{found:?}");
     assert!(bed.engine.checkpoint().unwrap() == before);
+}
+
+/// Balls that hang where they are put.
+fn hung(walls: &str, balls: &[(f64, f64, f64)], measures: &str) -> Vec<Option<f64>> {
+    let bodies: String = balls
+        .iter()
+        .map(|(x, y, z)| {
+            format!("[[bodies]]\ntemplate = \"ball\"\nposition = [{x:?}, {y:?}, {z:?}]\n")
+        })
+        .collect();
+    let text = BALL
+        .split("[[walls]]")
+        .next()
+        .unwrap()
+        .replace("restitution = 0.6", "")
+        .replace("damping = \"contact\"\n", "");
+    let text =
+        format!("{text}{walls}material = \"steel\"\n{bodies}[output]\nmeasures = {measures}\n");
+    let scene = scene(&text, &[]).unwrap();
+    scene.watch.row(&scene.engine)
+}
+
+/// Of a ball of radius r on a floor the mean top over its disc is 5/3 r; under that height a box of 6 r × 4 r is filled
+/// by 4π/3 / (6 · 4 · 5/3).
+#[test]
+fn height_and_solid_fraction_of_a_ball_on_a_floor() {
+    let r = 0.01;
+    let area = [24.0, std::f64::consts::PI * 9.0];
+    let walls = [
+        "[[walls]]\nbox = { lo = [0.0, 0.0, 0.5], hi = [0.06, 0.04, 0.7] }\n",
+        "[[walls]]\nplane = { normal = [0, 0, 3], offset = 0.5 }\nmaterial = \"steel\"\n\
+         [[walls]]\ncylinder = { center = [0.03, 0.02, 0], axis = [0, 0, -2], radius = 0.03 }\n",
+    ];
+    for (walls, area) in walls.iter().zip(area) {
+        let row = hung(
+            walls,
+            &[(0.025, 0.022, 0.5 + r)],
+            "[\"height\", \"solid\", \"top\", \"profile\"]",
+        );
+        let (height, solid) = (row[0].unwrap(), row[1].unwrap());
+        assert!((height / (5.0 / 3.0 * r) - 1.0).abs() < 2e-3, "{height}");
+        let wanted = 4.0 / 3.0 * std::f64::consts::PI / (area * 5.0 / 3.0);
+        assert!((solid / wanted - 1.0).abs() < 5e-3, "{solid} {wanted}");
+        assert!((row[2].unwrap() - (0.5 + 2.0 * r)).abs() < 1e-12);
+        // From the side a disc: its mean top is (1 + π/4) r; 20 places meet it.
+        let profile = row[3].unwrap();
+        assert!((profile / r / (1.0 + std::f64::consts::PI / 4.0) - 1.0).abs() < 0.02, "{profile}");
+    }
+    // Overlapping spheres count once: the same ball twice, one of them a hair higher.
+    let twice = [(0.025, 0.022, 0.5 + r), (0.025, 0.022, 0.5 + 3.0 * r)];
+    let row = hung(walls[0], &twice, "[\"height\", \"solid\"]");
+    let (height, solid) = (row[0].unwrap(), row[1].unwrap());
+    assert!((height / (11.0 / 3.0 * r) - 1.0).abs() < 2e-3, "{height}");
+    let wanted = 8.0 / 3.0 * std::f64::consts::PI / (24.0 * 11.0 / 3.0);
+    assert!((solid / wanted - 1.0).abs() < 5e-3, "{solid} {wanted}");
+}
+
+/// A slope of balls in a drum has the angle at which they lie, whichever way it goes up.
+#[test]
+fn the_angle_of_a_slope_in_a_drum() {
+    let drum = "[[walls]]\ncylinder = { center = [0, 0, 1], axis = [0, 1, 0], radius = 0.22, length = 0.06 }\n";
+    for angle in [31.0f64, -12.0] {
+        let slope = angle.to_radians().tan();
+        let mut balls: Vec<(f64, f64, f64)> = Vec::new();
+        for i in -7..=7 {
+            for y in [-0.019, 0.019] {
+                let x = 0.022 * f64::from(i);
+                balls.push((x, y, 1.0 + slope * x - 0.02));
+            }
+        }
+        let row = hung(drum, &balls, "[\"angle\"]");
+        assert!((row[0].unwrap() - angle.abs()).abs() < 0.2, "{row:?}");
+    }
+    // Too few to make a slope.
+    assert_eq!(hung(drum, &[(0.0, 0.0, 0.9)], "[\"angle\"]"), [None]);
+    // The measures are refused where there is nothing to measure them in.
+    for (name, wall) in
+        [("height", "an upright cylinder or box"), ("angle", "a level axis and a length")]
+    {
+        let e = scene(BALL, &[("output.measures", &format!("[\"{name}\"]"))]).map(|_| ());
+        assert!(e.unwrap_err().to_string().contains(wall));
+    }
+    let e = scene(BALL, &[("output.average", "0"), ("output.measures", "[\"top\"]")]).map(|_| ());
+    assert!(e.unwrap_err().to_string().contains("output.average needs the measure time"));
 }

@@ -4,6 +4,8 @@
 
 mod clumps;
 mod compare;
+#[cfg(feature = "dem")]
+mod converge;
 mod cost;
 mod failures;
 mod fragments;

@@ -7,8 +7,11 @@
 mod breaking;
 mod clump;
 mod compare;
+#[cfg(feature = "dem")]
+mod converge;
 mod cost;
 mod covering;
+mod cpu;
 mod demands;
 mod export;
 mod fail;
@@ -74,6 +77,9 @@ enum Command {
     /// Run all scenes of a folder and write what they show, with tables and pictures
     #[cfg(feature = "dem")]
     Scenes(Box<scenes::Args>),
+    /// Raise the number of spheres of a scene until what is measured no longer changes, and say what that cost
+    #[cfg(feature = "dem")]
+    Converge(Box<converge::Args>),
 }
 
 fn main() -> ExitCode {
@@ -104,6 +110,8 @@ fn main() -> ExitCode {
         Command::Simulate(args) => simulate::run(args),
         #[cfg(feature = "dem")]
         Command::Scenes(args) => scenes::run(args),
+        #[cfg(feature = "dem")]
+        Command::Converge(args) => converge::run(args),
     };
     match done {
         Ok(()) | Err(Fail::Pipe) => ExitCode::SUCCESS,

@@ -1,6 +1,6 @@
 //! Many runs of one scene, or throws in many poses: a table of what came of them, and what each cost.
 
-use crate::compare::cpu;
+use crate::cpu;
 use crate::fail::{About, Done, Fail};
 use crate::progress::Bar;
 use crate::write;

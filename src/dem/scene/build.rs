@@ -47,6 +47,8 @@ pub struct Scene {
     pub frames: Option<f64>,
     /// Time between two checkpoints.
     pub checkpoint: Option<f64>,
+    /// From when on measures are averaged.
+    pub average: Option<f64>,
     /// What a user should know.
     pub notes: Vec<String>,
 }
@@ -185,7 +187,16 @@ pub fn build_with(file: &SceneFile, folder: &Path, makes: &mut Makes, run: &Run)
     refuse_overlap(&engine, r.overlap)?;
     let coming: u64 = file.insertion.iter().map(|i| i.total).sum();
     let all = file.bodies.len() as u64 + coming;
-    let watch = Watch::new(file.output.measures.as_deref(), all)?;
+    let watch = Watch::new(file.output.measures.as_deref(), all, &engine)?;
+    if let Some(v) = file.output.average
+        && !(v.is_finite() && v >= 0.0)
+    {
+        let v = figure(v);
+        return Err(Error::InvalidArgument(format!("output.average is {v}, not a time")));
+    }
+    if file.output.average.is_some() && !watch.names().iter().any(|n| n == "time") {
+        return Err(Error::InvalidArgument("output.average needs the measure time".into()));
+    }
     Ok(Scene {
         title: file.title.clone(),
         engine,
@@ -200,6 +211,7 @@ pub fn build_with(file: &SceneFile, folder: &Path, makes: &mut Makes, run: &Run)
         every: file.output.every,
         frames: file.output.frames,
         checkpoint: file.output.checkpoint,
+        average: file.output.average,
         notes,
     })
 }

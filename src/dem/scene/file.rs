@@ -543,4 +543,6 @@ pub struct OutputPart {
     pub frames: Option<f64>,
     /// Time between two checkpoints; without it there is one at the end.
     pub checkpoint: Option<f64>,
+    /// From this time on the lines of measures are averaged; without it the last one counts.
+    pub average: Option<f64>,
 }

@@ -1,5 +1,6 @@
 //! Scenes: files that say what is simulated, and what of it is written down.
 
+mod bed;
 mod build;
 pub mod file;
 pub mod fragmentation;
@@ -8,6 +9,7 @@ mod given;
 pub mod impacts;
 mod keys;
 mod materials;
+mod mean;
 mod play;
 mod shares;
 pub mod shows;
@@ -20,6 +22,7 @@ pub use build::{Scene, build, build_with};
 pub use file::SceneFile;
 pub use fragmentation::{BREAK_COLUMNS, break_line};
 pub use keys::parse;
+pub use mean::{Mean, block_mean};
 pub use play::{Over, Place, Sink, play, rows_before};
 pub use shares::{Share, shares};
 pub use templates::{Made, Makes};

@@ -1,5 +1,6 @@
 //! What of a simulation is measured.
 
+use super::bed::{bed, needs_container, needs_drum, profile, repose, top};
 use crate::dem::energy;
 use crate::dem::engine::Engine;
 use crate::error::{Error, Result, push};
@@ -33,6 +34,10 @@ enum Whole {
     Overlap,
     Speed,
     Top,
+    Height,
+    Profile,
+    Solid,
+    Angle,
     Momentum(usize),
     AngularMomentum(usize),
 }
@@ -45,7 +50,7 @@ enum Own {
     Quaternion(usize),
 }
 
-const WHOLE: [(&str, Whole); 19] = [
+const WHOLE: [(&str, Whole); 23] = [
     ("time", Whole::Time),
     ("steps", Whole::Steps),
     ("bodies", Whole::Bodies),
@@ -59,6 +64,10 @@ const WHOLE: [(&str, Whole); 19] = [
     ("overlap", Whole::Overlap),
     ("speed", Whole::Speed),
     ("top", Whole::Top),
+    ("height", Whole::Height),
+    ("profile", Whole::Profile),
+    ("solid", Whole::Solid),
+    ("angle", Whole::Angle),
     ("momentum-x", Whole::Momentum(0)),
     ("momentum-y", Whole::Momentum(1)),
     ("momentum-z", Whole::Momentum(2)),
@@ -86,7 +95,7 @@ const OWN: [(&str, Own); 13] = [
 impl Watch {
     /// The measures of these names: those of the whole, or `x:3` and the like for the body with the label 3 (bodies are
     /// numbered as they come). Without names: time, kinetic, potential, stored, energy, contacts.
-    pub(super) fn new(names: Option<&[String]>, bodies: u64) -> Result<Watch> {
+    pub(super) fn new(names: Option<&[String]>, bodies: u64, engine: &Engine) -> Result<Watch> {
         let usual = ["time", "kinetic", "potential", "stored", "energy", "contacts"];
         let names: Vec<String> = match names {
             Some(names) => names.to_vec(),
@@ -94,7 +103,15 @@ impl Watch {
         };
         let mut measures = Vec::new();
         for name in &names {
-            push("measures", &mut measures, measure(name, bodies)?)?;
+            let found = measure(name, bodies)?;
+            match found {
+                Measure::Whole(Whole::Height | Whole::Profile | Whole::Solid) => {
+                    needs_container(name, engine)?;
+                }
+                Measure::Whole(Whole::Angle) => needs_drum(name, engine)?,
+                _ => {}
+            }
+            push("measures", &mut measures, found)?;
         }
         Ok(Watch { names, measures })
     }
@@ -121,9 +138,16 @@ impl Watch {
             [Vec::new(), Vec::new()]
         };
         let each = || contacts.iter().flatten();
+        let beds = |m: &Measure| matches!(m, Measure::Whole(Whole::Height | Whole::Solid));
+        let bed = if self.measures.iter().any(beds) { bed(engine) } else { None };
         let stored: f64 = each().map(|c| c.energy).sum();
         let of = |m: &Measure| match *m {
+            Measure::Whole(Whole::Height) => bed.map(|b| b[0]),
+            Measure::Whole(Whole::Profile) => profile(engine),
+            Measure::Whole(Whole::Solid) => bed.map(|b| b[1]),
+            Measure::Whole(Whole::Angle) => repose(engine),
             Measure::Whole(w) => Some(match w {
+                Whole::Height | Whole::Profile | Whole::Solid | Whole::Angle => return None,
                 Whole::Time => engine.time(),
                 Whole::Steps => engine.steps() as f64,
                 Whole::Bodies => s.len() as f64,
@@ -152,21 +176,6 @@ impl Watch {
         };
         self.measures.iter().map(of).collect()
     }
-}
-
-/// The highest point of any sphere: against gravity, or along z without it; 0 without bodies.
-fn top(engine: &Engine) -> f64 {
-    let s = engine.state();
-    let up = engine.setup().gravity.map_or(crate::math::Vec3::z(), |g| -g / g.amax()).normalize();
-    let mut most: Option<f64> = None;
-    for i in 0..s.len() {
-        let r = s.orientation[i].matrix();
-        for sphere in s.template_of(i).spheres() {
-            let at = up.dot(&(s.position[i] + r * sphere.center)) + sphere.radius;
-            most = Some(most.map_or(at, |m| m.max(at)));
-        }
-    }
-    most.unwrap_or(0.0)
 }
 
 fn measure(name: &str, bodies: u64) -> Result<Measure> {

@@ -1,6 +1,6 @@
 //! What is compared: a method and how long it looks, and what came of it.
 
-use super::cpu;
+use crate::cpu;
 use crate::fail::{About, Done, Fail};
 use clap::ValueEnum;
 use morula::generate::{Effort, GenerateOptions, Method, generate};

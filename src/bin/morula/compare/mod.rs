@@ -1,6 +1,5 @@
 //! `morula compare`: clumps of one shape by every method, side by side as a table and a picture.
 
-pub mod cpu;
 pub mod entry;
 mod picture;
 mod table;

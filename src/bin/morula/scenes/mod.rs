@@ -3,7 +3,7 @@
 mod page;
 mod picture;
 
-use crate::compare::cpu;
+use crate::cpu;
 use crate::fail::{About, Done, Fail};
 use crate::input::parse::whole;
 use crate::progress::Bar;
