@@ -159,8 +159,11 @@ impl Matrix<'_> {
     }
 }
 
+/// A group of cases: its name, and what runs them.
+type Group = (&'static str, fn(&mut Matrix));
+
 /// The groups in the order in which they are run.
-const GROUPS: &[(&str, fn(&mut Matrix))] = &[
+const GROUPS: &[Group] = &[
     ("invariance", invariance::run),
     ("shapes", shapes::run),
     ("algebra", algebra::run),
