@@ -142,7 +142,8 @@ impl Union {
         let s = &self.spheres[i];
         let way = p - s.center;
         let apart = way.norm();
-        let way = if apart <= f64::MIN_POSITIVE { Vec3::x() } else { way / apart };
+        let unit = way / apart.max(f64::MIN_POSITIVE);
+        let way = if apart <= f64::MIN_POSITIVE { Vec3::x() } else { unit };
         s.center + way * s.radius
     }
 
@@ -173,9 +174,12 @@ impl Union {
         let (a, b) = (self.spheres[i], self.spheres[j]);
         let way = b.center - a.center;
         let apart = way.norm();
+        if apart <= 0.0 {
+            return Ok(false);
+        }
         let along = 0.5 * (apart + (a.radius - b.radius) * (a.radius + b.radius) / apart);
         let radius2 = (a.radius - along) * (a.radius + along);
-        if radius2 <= 0.0 || apart <= 0.0 {
+        if radius2 <= 0.0 {
             return Ok(false);
         }
         let (axis, radius) = (way / apart, radius2.sqrt());

@@ -29,7 +29,9 @@ impl Arc {
         let q = p - self.center;
         let (x, y, h) = (q.dot(&self.e1), q.dot(&self.e2), q.dot(&self.axis));
         let flat = x.hypot(y) - self.radius;
-        if flat * flat + h * h >= best.1 * best.1 {
+        // So far there may be none, as far away as numbers go.
+        let reach = best.1.min(1e150);
+        if flat * flat + h * h >= reach * reach {
             return;
         }
         let turn = (y.atan2(x) - self.from).rem_euclid(TAU);

@@ -1,7 +1,9 @@
 //! Hard cases stay numerically stable: the short ones of `morula selftest`, a test for each group.
 #![cfg(all(feature = "cli", feature = "dem"))]
-#![allow(clippy::panic, clippy::print_stdout)]
+#![allow(clippy::panic, clippy::print_stdout, clippy::unwrap_used)]
 
+#[cfg(all(target_os = "linux", any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod flags;
 #[path = "../../src/bin/morula/stability/mod.rs"]
 mod stability;
 
@@ -70,4 +72,26 @@ fn every_group_has_its_test() {
     for group in stability::groups() {
         assert!(text.contains(&format!("holds(\"{group}\")")), "{group}");
     }
+}
+
+fn selftest(arguments: &[&str]) -> (Option<i32>, serde_json::Value) {
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_morula"))
+        .args(["selftest", "--json"])
+        .args(arguments)
+        .output()
+        .unwrap();
+    (output.status.code(), serde_json::from_slice(&output.stdout).unwrap())
+}
+
+#[test]
+fn the_program_says_what_it_found_and_misses_end_it_with_1() {
+    let (code, found) = selftest(&["--group", "algebra"]);
+    assert_eq!((code, &found["missed"]), (Some(0), &0.into()));
+    let cases = found["cases"].as_array().unwrap();
+    assert!(cases.len() > 20 && cases.iter().all(|c| c["value"].is_f64() && c["why"].is_string()));
+    // A folder without the particles: the miss is a line, the other cases are run.
+    let (code, found) = selftest(&["--group", "references", "--data", "src"]);
+    assert_eq!(code, Some(1));
+    let missed = found["missed"].as_u64().unwrap();
+    assert!(missed >= 1 && missed < found["cases"].as_array().unwrap().len() as u64);
 }

@@ -202,7 +202,7 @@ impl Dexels {
     /// Points inside, one in each of `n` equal parts of all lengths inside.
     pub(crate) fn points(&self, n: usize, random: &mut Random) -> Result<Vec<[f32; 3]>> {
         let mut out = reserve("points inside", n)?;
-        let part = self.target / n as f64;
+        let part = self.target / n.max(1) as f64;
         let (mut before, mut next) = (0.0, part * random.unit());
         for b in 0..self.dims[1] {
             for a in 0..self.dims[0] {

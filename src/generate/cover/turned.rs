@@ -100,7 +100,8 @@ impl<'a> Turned<'a> {
     /// body is thin.
     pub(super) fn cell(&self, per_diameter: u32) -> f64 {
         let asked = self.diameter / f64::from(per_diameter.max(1));
-        let wanted = self.thickness / ACROSS;
+        // Cells have no thickness to be asked for: its cube is still a number.
+        let wanted = self.thickness.min(1e100) / ACROSS;
         let box_volume: f64 = (self.high - self.low).iter().map(|e| e + 4.0 * wanted).product();
         let least = (box_volume / MOST).cbrt();
         asked.min(wanted.max(least))

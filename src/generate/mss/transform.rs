@@ -107,7 +107,7 @@ impl Columns {
             step2: step * step,
             block: vec![0.0; n * BLOCK],
             envelope: vec![Parabola::default(); n + 2],
-            halves: (0..n + 2).map(|d| if d > 0 { 0.5 / d as f64 } else { 0.0 }).collect(),
+            halves: (0..n + 2).map(|d| 0.5 / d.max(1) as f64).collect(),
         }
     }
 

@@ -78,7 +78,8 @@ impl<'a> Room<'a> {
         );
         let inward = -slope.component_div(&grid.spacing);
         let length = inward.norm();
-        let inward = if length > 1e-9 { inward / length } else { Vec3::zeros() };
+        let unit = inward / length.max(1e-9);
+        let inward = if length > 1e-9 { unit } else { Vec3::zeros() };
         Depth { depth: -mix(value[0], value[1], t[2]), inward }
     }
 

@@ -171,7 +171,7 @@ impl Facet {
         let height = (y - a[1]) * nrm_y + nrm_z * (z - a[2]);
         let nowhere = f32x4::splat(-1.0);
         if nrm_x.abs() > 1e-3 {
-            let across = 1.0 / nrm_x;
+            let across = inverse(nrm_x);
             let (middle, half) = (-(height * across) + a[0], (BAND * across).abs());
             from = from.fast_max(middle - half);
             to = to.fast_min(middle + half);
@@ -188,7 +188,7 @@ impl Facet {
             let left = (y - p[1]) * side[1] + (side[2] * (z - p[2]) + margin);
             // Along a side, rounding is well within the margin.
             if side[0].abs() > 1e-3 * margin {
-                let end = -(left * (1.0 / side[0])) + p[0];
+                let end = -(left * inverse(side[0])) + p[0];
                 if side[0] > 0.0 {
                     from = from.fast_max(end);
                 } else {
@@ -241,4 +241,10 @@ impl Facet {
         let old = i32x4::new(*who);
         *who = (old ^ (nearer & (old ^ i32x4::splat(name)))).to_array();
     }
+}
+
+/// 1/x. Also where x is 0 and nobody asks: loops are turned so that it is made all the same.
+#[inline(always)]
+fn inverse(x: f32) -> f32 {
+    1.0 / x.abs().max(1e-30).copysign(x)
 }

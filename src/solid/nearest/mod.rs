@@ -124,7 +124,9 @@ impl Surface {
         if !p.iter().all(|c| c.abs() <= 1e150) {
             return None;
         }
-        let reach2 = if reach < 1e150 { reach * reach } else { f64::MAX };
+        // The square is made of what has one, since it may be made before it is chosen.
+        let short = reach.min(1e150);
+        let reach2 = if reach < 1e150 { short * short } else { f64::MAX };
         let distance2 = |q: Vec3| ((q - p).norm_squared(), q);
         let (leaf, distance2, point) = match &self.leaves {
             Leaves::Triangles(all, _) => self.tree.nearest(p, reach2, |leaf| {

@@ -47,6 +47,20 @@ pub fn three() -> Result<Vec<(&'static str, Arrays)>> {
         .collect()
 }
 
+/// Every method.
+pub const METHODS: [Method; 10] = [
+    Method::Mss,
+    Method::Best,
+    Method::SurfaceFit,
+    Method::Inscribed,
+    Method::Cover,
+    Method::Packed,
+    Method::Euclidean,
+    Method::FerellecMcDowell,
+    Method::Favier,
+    Method::UniformGrid,
+];
+
 /// How a clump is made.
 #[derive(Debug, Clone, Copy)]
 pub struct Ask {

@@ -1,6 +1,6 @@
 //! Needles, plates, shells, corners: bodies whose thinnest part is far below their size.
 
-use super::bodies::{Arrays, Ask, inverted, joined, mismatch, moved, solid, spheres};
+use super::bodies::{Arrays, Ask, METHODS, inverted, joined, mismatch, moved, solid, spheres};
 use super::{About, Bound, Found, Matrix, Miss};
 use morula::error::Error;
 use morula::generate::{Method, generate};
@@ -151,19 +151,6 @@ fn voxels(dims: [usize; 3], cells: &[u8]) -> Result<Solid, Miss> {
     let shape = Shape::from_mask(cells, &layout, &ImportOptions::default(), &run)?;
     Ok(Solid::new(&shape, &SolidOptions::default(), &run)?)
 }
-
-const METHODS: [Method; 10] = [
-    Method::Mss,
-    Method::Best,
-    Method::SurfaceFit,
-    Method::Inscribed,
-    Method::Cover,
-    Method::Packed,
-    Method::Euclidean,
-    Method::FerellecMcDowell,
-    Method::Favier,
-    Method::UniformGrid,
-];
 
 /// Those that take every body: a refusal is a fault.
 const TAKE_ALL: [Method; 4] = [Method::Mss, Method::Best, Method::Inscribed, Method::Cover];
