@@ -2,7 +2,9 @@
 //! M&M clumps in a cylinder, the same law, from the same state; and what a step costs against the spheres of a clump.
 //! Times are those on the processor, so that other work on the machine counts little.
 //!
-//!     cargo bench --bench dem [-- lammps | spheres]
+//!     cargo bench --bench dem [-- lammps | spheres | packing]
+//!
+//! packing: 250 M&Ms of 48 spheres fall from the same random poses in both until they lie; three seeds, some minutes.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
@@ -10,6 +12,7 @@
 mod lammps;
 
 use morula::dem::contact::{CohesionLaw, DampingLaw, Laws, NormalLaw, TangentialLaw};
+use morula::dem::energy;
 use morula::dem::{
     Between, Coefficients, Engine, InsertRegion, Insertion, Material, Setup, State, Template,
     WallSetup, WallShape,
@@ -30,6 +33,9 @@ pub const STEP: f64 = 5e-6;
 /// Steps until the bed lies, and steps that are timed.
 const SETTLE: u64 = 30_000;
 
+/// Steps until all lie that were hung in a column.
+const FALL: u64 = 200_000;
+
 /// Seconds of this process on a processor.
 pub fn seconds() -> f64 {
     let text = std::fs::read_to_string("/proc/self/schedstat").unwrap();
@@ -46,8 +52,8 @@ fn candy(solid: &Solid, n: usize) -> Arc<Template> {
     Arc::new(Template::of_body(&clump.spheres, &body).unwrap())
 }
 
-/// A bed of M&Ms that have fallen into a cylinder.
-fn bed(template: Arc<Template>, bodies: u64) -> Engine {
+/// A bed of M&Ms that have fallen into a cylinder for so many steps.
+fn bed(template: Arc<Template>, bodies: u64, seed: u64, steps: u64) -> Engine {
     let laws = Laws {
         normal: NormalLaw::Hertz,
         damping: DampingLaw::Bodies,
@@ -86,10 +92,10 @@ fn bed(template: Arc<Template>, bodies: u64) -> Engine {
         batch: [bodies, bodies],
         every: 1,
         attempts: 20_000,
-        seed: 3,
+        seed,
     });
     let mut engine = Engine::new(setup, State::new(vec![template])).unwrap();
-    engine.advance(SETTLE, &Run::serial()).unwrap();
+    engine.advance(steps, &Run::serial()).unwrap();
     assert_eq!(engine.state().len() as u64, bodies);
     engine
 }
@@ -115,8 +121,8 @@ fn main() {
             "bodies spheres  ours steps/s  lammps steps/s  ratio  (mean height after, ours and lammps)"
         );
         for (bodies, n, steps) in [(60, 48, 3000), (250, 120, 400)] {
-            let mut engine = bed(candy(&solid, n), bodies);
-            let theirs = lammps::time(&engine, steps);
+            let mut engine = bed(candy(&solid, n), bodies, 3, SETTLE);
+            let theirs = lammps::time(&engine, steps, &[1e-4, 3e-4, 1e-3]);
             let ours = time(&mut engine, steps);
             let height = lammps::height(&engine);
             let Some((step, z, skin)) = theirs else {
@@ -135,12 +141,28 @@ fn main() {
         println!("60 bodies: spheres, microseconds a step, of that at 10 spheres, contacts a step");
         let mut first = None;
         for n in [10, 30, 48, 120, 300, 1000] {
-            let mut engine = bed(candy(&solid, n), 60);
+            let mut engine = bed(candy(&solid, n), 60, 3, SETTLE);
             let before = engine.work().contacts;
             let step = time(&mut engine, 5000);
             let contacts = (engine.work().contacts - before) as f64 / 5000.0;
             let of = step / *first.get_or_insert(step);
             println!("{n:5} {:8.1} {of:6.2} {contacts:7.1}", step * 1e6);
         }
+    }
+    if asked.iter().any(|a| a == "packing") {
+        println!("seed  mean height of the spheres in mm: ours, lammps  kinetic energy of ours");
+        let mut gaps = Vec::new();
+        for seed in [3, 4, 5] {
+            let mut engine = bed(candy(&solid, 48), 250, seed, 1);
+            let Some((_, z, _)) = lammps::time(&engine, FALL, &[1e-3]) else { continue };
+            engine.advance(FALL, &run).unwrap();
+            let (ours, [a, b]) = (lammps::height(&engine), energy::kinetic(engine.state()));
+            println!("{seed:4} {:9.3} {:9.3}  {:.1e}", 1e3 * ours, 1e3 * z, a + b);
+            gaps.push(1e3 * (ours - z));
+        }
+        let n = gaps.len() as f64;
+        let mean = gaps.iter().sum::<f64>() / n;
+        let error = gaps.iter().map(|g| (g - mean) * (g - mean)).sum::<f64>() / (n - 1.0) / n;
+        println!("difference {mean:.3} ± {:.3} mm", error.sqrt());
     }
 }

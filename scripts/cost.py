@@ -264,6 +264,9 @@ def mean():
         "spheres and with corrected masses, in per cent. (Figure 7 by the method of that paper stands in",
         "[surface_fit.md](surface_fit.md), figures 6 and 9 and table 2 of Yuan 2019 in [cover.md](cover.md).)", "")
     table(("n", "union", "corrected masses"), errors, 0)
+    say("With few spheres corrected masses leave more than the bare union does: a solver adds up the spheres, each with its own",
+        "2/5 m r², and where overlapping ones share the mass no positive masses make up for the volume that lies between and",
+        "outside of the small ones. The union is what a solver has that takes mass and inertia as they are.", "")
     picture(curves, used)
 
 

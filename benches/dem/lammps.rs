@@ -65,7 +65,7 @@ fn files(engine: &Engine) -> (String, String) {
 }
 
 /// Processor seconds of a step, the mean height of the spheres afterwards, and the skin with which it was fastest.
-pub fn time(engine: &Engine, steps: u64) -> Option<(f64, f64, f64)> {
+pub fn time(engine: &Engine, steps: u64, skins: &[f64]) -> Option<(f64, f64, f64)> {
     let folder = std::env::temp_dir().join(format!("morula-dem-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let (data, bodies) = files(engine);
@@ -77,7 +77,7 @@ pub fn time(engine: &Engine, steps: u64) -> Option<(f64, f64, f64)> {
     );
     let reach = 2.2 * engine.state().template_of(0).bound();
     let mut best: Option<(f64, f64, f64)> = None;
-    for skin in [1e-4, 3e-4, 1e-3] {
+    for &skin in skins {
         let input = format!(
             "units si
 atom_style sphere

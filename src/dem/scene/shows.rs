@@ -47,6 +47,8 @@ pub enum OfName {
     Drift,
     /// The greatest rise since the first line, over the size of the first.
     Rise,
+    /// The mean of the lines from `output.average` on.
+    Mean,
 }
 
 impl OfName {
@@ -58,6 +60,7 @@ impl OfName {
             OfName::Last => values.last().copied(),
             OfName::Most => Some(most(&|v| v)),
             OfName::Least => Some(-most(&|v| -v)),
+            OfName::Mean => Some(values.iter().sum::<f64>() / values.len() as f64),
             _ if first == 0.0 => None,
             OfName::Drift => Some(most(&|v| (v - first).abs()) / first.abs()),
             OfName::Rise => Some(most(&|v| v - first) / first.abs()),
@@ -90,8 +93,9 @@ mod tests {
     #[test]
     fn what_of_the_lines_is_meant() {
         let v = [-2.0, 1.0, -5.0, -1.0];
-        let all = [OfName::Last, OfName::Most, OfName::Least, OfName::Drift, OfName::Rise];
-        assert_eq!(all.map(|o| o.of(&v).unwrap()), [-1.0, 1.0, -5.0, 1.5, 1.5]);
+        let all =
+            [OfName::Last, OfName::Most, OfName::Least, OfName::Drift, OfName::Rise, OfName::Mean];
+        assert_eq!(all.map(|o| o.of(&v).unwrap()), [-1.0, 1.0, -5.0, 1.5, 1.5, -1.75]);
         assert_eq!(OfName::Drift.of(&[0.0, 1.0]), None);
         assert_eq!(OfName::Last.of(&[]), None);
     }

@@ -9,7 +9,7 @@ use crate::input::parse::whole;
 use crate::progress::Bar;
 use crate::sweep::{self, Row, Table};
 use crate::write;
-use morula::dem::scene::shows::ShowPart;
+use morula::dem::scene::shows::{OfName, ShowPart};
 use morula::dem::scene::sweep::{Case, cases};
 use morula::dem::scene::{Place, SceneFile, Sink, build, play};
 use morula::{Result, Run};
@@ -162,7 +162,13 @@ impl Shown {
             return table.number(row, &show.figure).map(|v| v * show.times);
         }
         let k = self.table.figures.iter().position(|f| *f == show.figure)?;
-        let values: Vec<f64> = self.lines.iter().filter_map(|l| *l.get(k)?).collect();
+        let time = self.table.figures.iter().position(|f| f == "time");
+        let from = self.file.output.average.filter(|_| show.of == OfName::Mean);
+        let late = |line: &&Vec<Option<f64>>| match (from, time) {
+            (Some(from), Some(k)) => line.get(k).is_some_and(|t| t.is_some_and(|t| t >= from)),
+            _ => true,
+        };
+        let values: Vec<f64> = self.lines.iter().filter(late).filter_map(|l| *l.get(k)?).collect();
         show.of.of(&values).map(|v| v * show.times)
     }
 }
