@@ -172,6 +172,31 @@ pub(crate) fn unit(q: [f64; 4]) -> UnitQuaternion<f64> {
     UnitQuaternion::new_normalize(Quaternion::new(q[0], q[1], q[2], q[3]))
 }
 
+/// Body `i` as its shape has it, of which the centre and the body axes (`w, x, y, z`) are known; and the turn from the axes
+/// of the shape to those of space.
+pub(crate) fn held(
+    state: &State,
+    i: usize,
+    center: Vec3,
+    axes: [f64; 4],
+) -> (Held, UnitQuaternion<f64>) {
+    let (template, axes) = (state.template_of(i), unit(axes));
+    let turn = unit(state.orientation[i].quaternion) * axes.inverse();
+    let a = axes.to_rotation_matrix().into_inner();
+    let own = Matrix3::from_diagonal(&Vec3::from(template.moments()));
+    let held = Held {
+        mass: template.mass(),
+        center,
+        inertia: Inertia::from_matrix(&(a * own * a.transpose())),
+        scale: 1.0,
+        position: state.position[i],
+        rotation: [turn.w, turn.i, turn.j, turn.k],
+        velocity: state.velocity[i],
+        angular_velocity: state.angular_velocity(i),
+    };
+    (held, turn)
+}
+
 impl Breaker {
     /// Refused: templates that do not exist, a limit or window that is not a number above 0.
     pub fn new(setup: Fragmentation, state: &State) -> Result<Breaker> {
@@ -243,22 +268,7 @@ impl Breaker {
         let missing = || Error::Internal("what breaks is missing".into());
         let shard = self.shards[state.template[i] as usize].as_ref().ok_or_else(missing)?;
         let parent = &self.setup.breakable[shard.parent].parent;
-        let template = state.template_of(i);
-        let axes = unit(shard.axes);
-        // From the axes of the shape to those of space.
-        let turn = unit(state.orientation[i].quaternion) * axes.inverse();
-        let a = axes.to_rotation_matrix().into_inner();
-        let own = Matrix3::from_diagonal(&Vec3::from(template.moments()));
-        let held = Held {
-            mass: template.mass(),
-            center: shard.center,
-            inertia: Inertia::from_matrix(&(a * own * a.transpose())),
-            scale: 1.0,
-            position: state.position[i],
-            rotation: [turn.w, turn.i, turn.j, turn.k],
-            velocity: state.velocity[i],
-            angular_velocity: state.angular_velocity(i),
-        };
+        let (held, turn) = held(state, i, shard.center, shard.axes);
         let cut = match (self.setup.by, hit) {
             (BreakBy::Impact(count), Some((point, direction))) => Cut::Impact {
                 point: shard.center + turn.inverse() * (point - state.position[i]),

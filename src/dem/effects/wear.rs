@@ -1,7 +1,7 @@
 //! Bodies that wear: from time to time a flat is cut off a side, what is cut off is dust, and what is left gets new
 //! spheres in place. Nothing breaks: the body keeps its label, and its motion is handed over as at a break.
 
-use super::fragmentation::{Energies, Touching, unit};
+use super::fragmentation::{Energies, Touching, held, unit};
 use crate::dem::state::State;
 use crate::dem::template::Template;
 use crate::error::{Error, Result, figure, push, reserve};
@@ -10,10 +10,9 @@ use crate::fragment::{
 };
 use crate::generate::HalfSpace;
 use crate::mass::Body;
-use crate::math::{Inertia, Moments, Sphere, Vec3};
+use crate::math::{Moments, Sphere, Vec3};
 use crate::run::Run;
 use crate::solid::Solid;
-use nalgebra::Matrix3;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -143,8 +142,8 @@ impl Wearer {
         let (wear, worn) = self.setup.get(k).zip(self.worn.get_mut(k)).ok_or_else(missing)?;
         worn.done += 1;
         let template = state.template_of(i);
+        let (held, turn) = held(state, i, worn.center, worn.axes);
         let axes = unit(worn.axes);
-        let turn = unit(state.orientation[i].quaternion) * axes.inverse();
         let spheres = template.spheres().iter();
         let old: Vec<Sphere> =
             spheres.map(|s| Sphere::new(worn.center + axes * s.center, s.radius)).collect();
@@ -172,18 +171,6 @@ impl Wearer {
         {
             push("dust", &mut moments, m)?;
         }
-        let a = axes.to_rotation_matrix().into_inner();
-        let own = Matrix3::from_diagonal(&Vec3::from(template.moments()));
-        let held = Held {
-            mass: template.mass(),
-            center: worn.center,
-            inertia: Inertia::from_matrix(&(a * own * a.transpose())),
-            scale: 1.0,
-            position: state.position[i],
-            rotation: [turn.w, turn.i, turn.j, turn.k],
-            velocity: state.velocity[i],
-            angular_velocity: state.angular_velocity(i),
-        };
         let over = held.hand_over(&moments, frame.noise())?;
         let (rest, dust) = over.pieces.split_first().ok_or_else(missing)?;
         let rest = Held {

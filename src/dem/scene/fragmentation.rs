@@ -4,7 +4,7 @@ use super::file::SceneFile;
 use super::templates::Made;
 use crate::dem::contact::Laws;
 use crate::dem::effects::fragmentation::{
-    BreakBy, BreakRecord, Breakable, Fragmentation, Threshold,
+    BreakBy, BreakRecord, Breakable, Energies, Fragmentation, Threshold, Touching,
 };
 use crate::dem::state::State;
 use crate::dem::template::Template;
@@ -253,27 +253,30 @@ pub const BREAK_COLUMNS: &str = "step,time,body,fragments,dust,mass-error,moment
 /// the whole bed; overlaps are between the fragments, what touches are neighbours and walls, with the deepest overlap.
 pub fn break_line(b: &BreakRecord, dt: f64) -> String {
     let [mass, momentum, angular] = b.errors();
-    let (x, y) = (&b.before, &b.after);
-    let [before, after] = b.around;
     format!(
-        "{},{:?},{},{},{:?},{mass:?},{momentum:?},{angular:?},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{},{:?},{},{},{:?},{:?}",
+        "{},{:?},{},{},{:?},{mass:?},{momentum:?},{angular:?},{},{},{:?},{}",
         b.step,
         b.step as f64 * dt,
         b.label,
         b.fragments.len(),
         b.dust,
-        x.kinetic,
-        y.kinetic,
-        x.potential,
-        y.potential,
-        x.stored,
-        y.stored,
-        y.sum() - x.sum(),
+        energies(&b.before, &b.after),
         b.between.count,
         b.between.deepest,
-        before.count,
-        after.count,
-        before.deepest,
-        after.deepest,
+        touched(&b.around),
     )
+}
+
+/// Energies before and after, and how much they rise together.
+pub(super) fn energies(x: &Energies, y: &Energies) -> String {
+    let [kinetic, potential, stored] =
+        [[x.kinetic, y.kinetic], [x.potential, y.potential], [x.stored, y.stored]]
+            .map(|[x, y]| format!("{x:?},{y:?}"));
+    format!("{kinetic},{potential},{stored},{:?}", y.sum() - x.sum())
+}
+
+/// Contacts before and after: how many, and how deep.
+pub(super) fn touched([before, after]: &[Touching; 2]) -> String {
+    let deepest = format!("{:?},{:?}", before.deepest, after.deepest);
+    format!("{},{},{deepest}", before.count, after.count)
 }

@@ -189,14 +189,8 @@ impl Source<'_> {
     }
 }
 
-#[cfg(feature = "io")]
 fn from_file(file: &Path, import: &ImportOptions, run: &Run) -> Result<Shape> {
     use crate::shape::read::FileOptions;
     let options = FileOptions { import: import.clone(), ..FileOptions::default() };
     Shape::from_file(file, &options, run)
-}
-
-#[cfg(not(feature = "io"))]
-fn from_file(file: &Path, _: &ImportOptions, _: &Run) -> Result<Shape> {
-    Err(Error::Unsupported(format!("{} is not read without the feature io", file.display())))
 }

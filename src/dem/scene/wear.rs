@@ -1,6 +1,7 @@
 //! Bodies of a scene that wear, and the lines that are written of it.
 
 use super::file::{SceneFile, TargetName};
+use super::fragmentation::{energies, touched};
 use super::templates::Made;
 use crate::dem::effects::wear::{Wear, WearRecord};
 use crate::error::{Error, Result, figure, push};
@@ -113,10 +114,8 @@ pub const WEAR_COLUMNS: &str = "step,time,body,spheres,mass,dust,coverage,mismat
 /// A line of wear.csv, in the order of [`WEAR_COLUMNS`]: as [`super::break_line`] has it.
 pub fn wear_line(w: &WearRecord, dt: f64) -> String {
     let [mass, momentum, angular] = w.errors;
-    let (x, y) = (&w.before, &w.after);
-    let [before, after] = w.around;
     format!(
-        "{},{:?},{},{},{:?},{:?},{:?},{:?},{mass:?},{momentum:?},{angular:?},{:?},{:?},{:?},{:?},{:?},{:?},{:?},{},{},{:?},{:?}",
+        "{},{:?},{},{},{:?},{:?},{:?},{:?},{mass:?},{momentum:?},{angular:?},{},{}",
         w.step,
         w.step as f64 * dt,
         w.label,
@@ -125,16 +124,7 @@ pub fn wear_line(w: &WearRecord, dt: f64) -> String {
         w.dust,
         w.coverage,
         w.mismatch(),
-        x.kinetic,
-        y.kinetic,
-        x.potential,
-        y.potential,
-        x.stored,
-        y.stored,
-        y.sum() - x.sum(),
-        before.count,
-        after.count,
-        before.deepest,
-        after.deepest,
+        energies(&w.before, &w.after),
+        touched(&w.around),
     )
 }
