@@ -1,29 +1,35 @@
 //! Effects that are left out of the library, to weigh what the code of one costs a scene that does not name it:
-//! `MORULA_WITHOUT=gravity cargo build` builds an engine without gravity, which refuses scenes that name it
-//! (`scripts/zero_cost.sh`). Without that variable, as always, all are built.
+//! `MORULA_WITHOUT=gravity,drag cargo build` builds an engine without these, which refuses scenes that name
+//! them (`scripts/zero_cost.sh`). Without that variable, as always, all are built.
 
 use super::engine::Setup;
 use super::{CohesionLaw, DampingLaw, TangentialLaw};
 use crate::error::{Error, Result};
 
-/// The one that is left out.
+/// Those that are left out.
 const WITHOUT: Option<&str> = option_env!("MORULA_WITHOUT");
 
 /// Whether an effect is built.
 pub(crate) const fn built(name: &str) -> bool {
     let Some(out) = WITHOUT else { return true };
     let (a, b) = (name.as_bytes(), out.as_bytes());
-    if a.len() != b.len() {
-        return true;
-    }
-    let mut k = 0;
-    while k < a.len() {
-        if a[k] != b[k] {
-            return true;
+    // The name from the start or after a comma, up to a comma or the end.
+    let (mut from, mut k) = (0, 0);
+    while from + k <= b.len() {
+        let end = from + k == b.len() || b[from + k] == b',';
+        if end && k == a.len() {
+            return false;
         }
-        k += 1;
+        if end || k == a.len() || a[k] != b[from + k] {
+            while from < b.len() && b[from] != b',' {
+                from += 1;
+            }
+            (from, k) = (from + 1, 0);
+        } else {
+            k += 1;
+        }
     }
-    false
+    true
 }
 
 /// Refused: an effect that is not built.
