@@ -147,5 +147,5 @@ fn a_breakage_that_cannot_be_is_refused() {
     let both = [("fragmentation.stress", "1"), ("fragmentation.impulse", "1")];
     says(flight, &both, "impulse and stress are both there");
     let ball = [("templates.stone", "{ ball = 0.01, density = 2600, material = \"stone\" }")];
-    says(flight, &ball, "names stone, a ball without a surface to cut");
+    says(flight, &ball, "stone is of given spheres, not of a shape");
 }

@@ -139,7 +139,7 @@ fn what_cannot_be_is_told() {
     says("bodies.0.velocity", "[0, nan, 0]", "body 0 has the velocity (0, NaN, 0)");
     says("bodies.0.rotation", "[0, 0, 0, 0]", "body 0 has the rotation (0, 0, 0, 0)");
     says("templates.ball.density", "0", "the density 0");
-    says("templates.ball.shape", "stone", "needs one of ball, shape and file");
+    says("templates.ball.shape", "stone", "needs one of ball, shape, file");
     says("templates.ball.material", "wood", "the template ball is of the material wood");
     says("walls.0.material", "wood", "wall 0 is of the material wood");
     says("walls.0.box", "{ lo = [0, 0, 0], hi = [1, 1, 1] }", "wall 0 needs one of plane");

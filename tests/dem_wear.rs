@@ -95,7 +95,7 @@ fn a_wear_that_cannot_be_is_refused() {
     let ball = "{ ball = 0.005, density = 2600, material = \"stone\" }";
     let both = [("templates.stone", ball), ("effects.averaging", "false")];
     let Err(e) = scene(&both) else { panic!("a ball wears") };
-    assert!(e.to_string().contains("a ball without a surface to cut"), "{e}");
+    assert!(e.to_string().contains("stone is of given spheres, not of a shape"), "{e}");
     let breaks = "{ templates = [\"stone\"], stress = 1, cells = 3 }";
     says("fragmentation", breaks, "wear 0 is of the body 0, which breaks");
 }

@@ -219,7 +219,7 @@ impl Engine {
         // Nothing is put in by a break, and what dust takes away is gone.
         self.put_in = energy_in - dust.kinetic - dust.potential;
         let pieces = first..self.state.len();
-        self.settle(pieces.clone(), held, run)?;
+        self.settle(pieces.clone(), (pressed, held), run)?;
         let mut after = self.energies();
         after.kinetic += dust.kinetic;
         after.potential += dust.potential;
@@ -246,19 +246,29 @@ impl Engine {
         Ok(())
     }
 
-    /// Forces of bodies that are new at this time, whose springs held `held` before; springs do not move on.
-    pub(super) fn settle(&mut self, those: Range<usize>, held: f64, run: &Run) -> Result<()> {
+    /// Forces of bodies that are new at this time, with what touched before and what its springs held; springs do not move on.
+    pub(super) fn settle(
+        &mut self,
+        those: Range<usize>,
+        before: (Touching, f64),
+        run: &Run,
+    ) -> Result<()> {
         let calls: Calls = self.work.calls;
         self.forces(run, 0.0);
-        self.yield_to_neighbours(those, held)?;
+        self.yield_to_neighbours(those, before)?;
         self.forces(run, 0.0);
         self.work.calls = calls;
         Ok(())
     }
 
-    /// Where more springs of these bodies are pressed than were before, and hold more energy than `held`, the spheres that press are made smaller by a part of their overlaps: with overlaps s times
+    /// Where the springs of these bodies hold more energy than before, or are pressed deeper (pieces of a piece may reach
+    /// beyond its spheres), the spheres that press are made smaller by a part of their overlaps: with overlaps s times
     /// as deep no spring holds more than s² times as much.
-    fn yield_to_neighbours(&mut self, those: Range<usize>, held: f64) -> Result<()> {
+    fn yield_to_neighbours(
+        &mut self,
+        those: Range<usize>,
+        (before, held): (Touching, f64),
+    ) -> Result<()> {
         let [bodies, walls] = self.contacts();
         // (body, sphere, overlap) of each contact that is theirs, at both ends where both are.
         let mut pressed: Vec<(usize, u32, f64)> = Vec::new();
@@ -270,10 +280,11 @@ impl Engine {
             now += if own.clone().count() > 0 { c.energy } else { 0.0 };
             pressed.extend(own.map(|e| (e.0, e.1, c.overlap)));
         }
-        if now <= held {
+        let deepest = pressed.iter().map(|p| p.2).fold(0.0, f64::max);
+        if now <= held && deepest <= before.deepest {
             return Ok(());
         }
-        let less = 1.0 - (1.0 - 1e-9) * (held.max(0.0) / now).sqrt();
+        let less = if now > held { 1.0 - (1.0 - 1e-9) * (held.max(0.0) / now).sqrt() } else { 0.0 };
         for i in those.clone() {
             let number = self.state.template[i] as usize;
             let t = self.state.templates[number].clone();
@@ -281,7 +292,8 @@ impl Engine {
             for (k, s) in t.spheres().iter().enumerate() {
                 let own = pressed.iter().filter(|p| p.0 == i && p.1 as usize == k);
                 let deepest = own.map(|p| p.2).fold(0.0, f64::max);
-                let radius = (s.radius - less * deepest).max(1e-3 * s.radius);
+                let less = (less * deepest).max(deepest - before.deepest);
+                let radius = (s.radius - less).max(1e-3 * s.radius);
                 if let Some(at) = t.order().get(k)
                     && let Some(slot) = spheres.get_mut(*at as usize)
                 {

@@ -80,7 +80,7 @@ impl Engine {
         // Nothing is put in, and what dust takes away is gone.
         self.put_in -= lost.kinetic + lost.potential;
         self.forget(i..i + 1);
-        self.settle(i..i + 1, held, run)?;
+        self.settle(i..i + 1, (pressed, held), run)?;
         let mut after = self.energies();
         after.kinetic += lost.kinetic;
         after.potential += lost.potential;

@@ -142,9 +142,7 @@ pub(super) fn fragmentation(
             return bad(format!("templates names {name}, which is not there"));
         };
         let Some((solid, spheres)) = &templates[at].source else {
-            return bad(format!(
-                "templates names {name}, a ball without a surface to cut: shape = \"sphere\" has one"
-            ));
+            return bad(format!("templates names {name}, which has no surface to cut"));
         };
         if file.templates.get(name).is_some_and(|t| t.inertia != super::file::TargetName::Solid) {
             return bad(format!(

@@ -76,7 +76,7 @@ fn make(name: &str, part: &TemplatePart, keep: bool, folder: &Path, run: &Run) -
     }
     if let Some((spheres, body)) = given(part, folder, run).map_err(whose)? {
         if keep {
-            return bad("is of given spheres, not of a shape that could break".into());
+            return bad("is of given spheres, not of a shape that could break or wear".into());
         }
         let template = match part.ball {
             Some(radius) => Template::ball(radius, part.density),

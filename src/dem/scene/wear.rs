@@ -63,9 +63,7 @@ pub(super) fn wear(file: &SceneFile, templates: &[Made], dt: f64) -> Result<Vec<
         }
         let made = templates.iter().find(|t| t.name == *name);
         let Some((made, (solid, _))) = made.and_then(|t| Some((t, t.source.as_ref()?))) else {
-            return bad(format!(
-                "is of {name}, a ball without a surface to cut: shape = \"sphere\" has one"
-            ));
+            return bad(format!("is of {name}, which has no surface to cut"));
         };
         if file.templates.get(name).is_some_and(|t| t.inertia != TargetName::Solid) {
             return bad(format!(
