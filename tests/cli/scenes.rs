@@ -98,6 +98,23 @@ fn scenes_that_have_run_stand_on_one_page() {
             _ => assert!(if n == 4.0 { e < 0.5 } else { (e - 0.6).abs() > 0.3 }, "{row:?}"),
         }
     }
+    // How the effects share the time, where that is asked for.
+    assert!(!page.contains("Where the time"), "{page}");
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let out = folder.join("c");
+    succeeds(&[
+        "scenes",
+        text(&scenes),
+        "--quick",
+        "--only",
+        "contact",
+        "--shares",
+        "-o",
+        text(&out),
+    ]);
+    let page = read(&out, "index.md");
+    assert!(page.contains("| scene | damping | normal | bodies |"), "{page}");
+    assert!(read(&out, "shares.svg").contains("damping"));
     fails(&["scenes", text(&folder), "-o", text(&folder)], 2);
     let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
     let said = fails(&["scenes", text(&scenes), "--only", "plat", "-o", text(&folder)], 2);

@@ -1,5 +1,6 @@
 //! `morula scenes`: every scene of a folder, and one page of what they show.
 
+mod bars;
 mod page;
 mod picture;
 
@@ -11,7 +12,7 @@ use crate::sweep::{self, Row, Table};
 use crate::write;
 use morula::dem::scene::shows::{OfName, ShowPart};
 use morula::dem::scene::sweep::{Case, cases};
-use morula::dem::scene::{Place, SceneFile, Sink, build, play};
+use morula::dem::scene::{Place, SceneFile, Share, Sink, build, play, shares};
 use morula::{Result, Run};
 use std::path::{Path, PathBuf};
 
@@ -36,6 +37,9 @@ pub struct Args {
     /// Threads; 0: all cores. The figures do not depend on it
     #[arg(long, default_value_t = 1, value_parser = whole::<usize>)]
     threads: usize,
+    /// Measure how the time of a step is shared among the effects, by short reruns without them
+    #[arg(long)]
+    shares: bool,
     /// No progress bar, no table
     #[arg(short, long)]
     quiet: bool,
@@ -53,20 +57,31 @@ pub struct Shown {
     pub many: bool,
     /// Lines of measures of the one run.
     pub lines: Vec<Vec<Option<f64>>>,
+    /// How its effects share the time of a step, where that is asked for.
+    pub shares: Vec<Share>,
 }
 
-/// All lines of measures.
-struct Lines(Vec<Vec<Option<f64>>>);
+/// Most checkpoints from which shares are measured.
+const KEPT: usize = 8;
+
+/// All lines of measures, and where shares are asked for the checkpoints.
+struct Lines {
+    lines: Vec<Vec<Option<f64>>>,
+    kept: Option<Vec<Vec<u8>>>,
+}
 
 impl Sink for Lines {
     fn row(&mut self, values: &[Option<f64>]) -> Result<()> {
-        self.0.push(values.to_vec());
+        self.lines.push(values.to_vec());
         Ok(())
     }
     fn frame(&mut self, _: u64, _: &str) -> Result<()> {
         Ok(())
     }
-    fn checkpoint(&mut self, _: u64, _: &[u8]) -> Result<()> {
+    fn checkpoint(&mut self, _: u64, bytes: &[u8]) -> Result<()> {
+        if let Some(kept) = &mut self.kept {
+            kept.push(bytes.to_vec());
+        }
         Ok(())
     }
     fn at(&mut self, _: &Place) -> bool {
@@ -102,6 +117,13 @@ pub fn run(args: &Args) -> Done {
         save(&shown, out)?;
         all.push(shown);
     }
+    if all.iter().any(|s| !s.shares.is_empty()) {
+        let svg = bars::svg(&all).map_err(|e| Fail::Library {
+            error: morula::Error::InvalidArgument(e.to_string()),
+            about: "shares".into(),
+        })?;
+        put(&out.join("shares.svg"), &svg)?;
+    }
     let page = page::page(&all, args.quick);
     put(&out.join("index.md"), &page)?;
     if args.quiet {
@@ -122,28 +144,37 @@ fn one(name: &str, path: &PathBuf, folder: &Path, args: &Args, bar: &Bar) -> Don
     let name = name.to_owned();
     if many {
         let (table, _) = sweep::run(&cases, folder, args.threads, bar)?;
-        return Ok(Shown { name, file, table, many, lines: Vec::new() });
+        return Ok(Shown { name, file, table, many, lines: Vec::new(), shares: Vec::new() });
     }
     let now = || cpu::seconds().unwrap_or_default();
     let run = Run::new(args.threads).about("--threads")?.with_seed(file.run.seed);
     let before = now();
     let mut scene = build(&file, folder, &run).about(&said)?;
     let making = now() - before;
-    let mut lines = Lines(Vec::new());
+    if args.shares {
+        scene.checkpoint = Some(scene.end / KEPT as f64);
+    }
+    let mut out = Lines { lines: Vec::new(), kept: args.shares.then(Vec::new) };
     let before = now();
-    play(&mut scene, &mut lines, &run).about(&said)?;
+    play(&mut scene, &mut out, &run).about(&said)?;
     let running = now() - before;
+    let parts = match &out.kept {
+        Some(kept) => shares(&scene, kept, &run).about(&said)?,
+        None => Vec::new(),
+    };
+    let lines = out.lines;
     let state = scene.engine.state();
     let spheres = (0..state.len()).map(|i| state.template_of(i).spheres().len() as u64).sum();
     let figures = scene.watch.names().to_vec();
-    let values = lines.0.last().cloned().unwrap_or_default();
+    let values = lines.last().cloned().unwrap_or_default();
     let rows = vec![Row { labels: Vec::new(), values, spheres, making, running }];
     Ok(Shown {
         name,
         file,
         table: Table { keys: Vec::new(), figures, rows, seconds: making + running },
         many,
-        lines: lines.0,
+        lines,
+        shares: parts,
     })
 }
 

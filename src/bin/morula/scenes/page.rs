@@ -45,6 +45,7 @@ pub fn page(all: &[Shown], quick: bool) -> String {
             let _ = writeln!(out, "| {name} | {title} | | | | {spheres} | {seconds} |");
         }
     }
+    shares(&mut out, all);
     for shown in all {
         if !shown.many && shown.file.plots.is_empty() {
             continue;
@@ -63,6 +64,30 @@ pub fn page(all: &[Shown], quick: bool) -> String {
         }
     }
     out
+}
+
+/// How the effects of each scene share the time of a step: a column for each effect.
+fn shares(out: &mut String, all: &[Shown]) {
+    let named = super::bars::effects(all);
+    if named.is_empty() {
+        return;
+    }
+    let _ = writeln!(out, "\n## Where the time of a step goes\n\n![shares](shares.svg)\n");
+    let _ = writeln!(out, "Percent; `bodies` is what is left without any effect.\n");
+    let _ = writeln!(
+        out,
+        "| scene | {} |\n| --- |{}",
+        named.join(" | "),
+        " ---: |".repeat(named.len())
+    );
+    for shown in all.iter().filter(|s| !s.shares.is_empty()) {
+        let of = |n: &&str| {
+            let share = shown.shares.iter().find(|s| s.name == *n);
+            share.map_or(String::new(), |s| format!("{:.1}", 100.0 * s.part))
+        };
+        let cells: Vec<String> = named.iter().map(of).collect();
+        let _ = writeln!(out, "| {} | {} |", shown.name, cells.join(" | "));
+    }
 }
 
 /// A figure as it is read best.
