@@ -236,9 +236,10 @@ mod tests {
         for k in 0..10 {
             let rotation = throw.rotation(0.17 * k as f64, 0.9 * k as f64);
             let (found, rigid) = (throw.at(rotation).unwrap(), throw.rigid(rotation).unwrap());
-            assert!((found.velocity - rigid.velocity).norm() < 2e-3, "{k}: {found:?} {rigid:?}");
+            // It turns by up to a degree while it touches.
+            assert!((found.velocity - rigid.velocity).norm() < 1e-2, "{k}: {found:?} {rigid:?}");
             let spin = found.angular_velocity - rigid.angular_velocity;
-            assert!(spin.norm() * 5.675e-3 < 4e-3, "{k}: {found:?} {rigid:?}");
+            assert!(spin.norm() * 5.675e-3 < 2e-2, "{k}: {found:?} {rigid:?}");
             assert_eq!(found.most, 1);
         }
     }
