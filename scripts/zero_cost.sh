@@ -29,7 +29,9 @@ build() {
     else
         unset MORULA_WITHOUT
     fi
-    cargo rustc --quiet --release --locked --lib --crate-type rlib --no-default-features --features dem
+    # One unit, so that no effect changes what is inlined where by how code is dealt among units.
+    cargo rustc --quiet --release --locked --lib --crate-type rlib --no-default-features \
+        --features dem -- -C codegen-units=1
     rustc --edition 2024 -C opt-level=3 -L "dependency=$target/release/deps" \
         --extern "morula=$target/release/libmorula.rlib" -o "$work/$2" scripts/zero_cost.rs
 }
