@@ -1,7 +1,7 @@
 //! Pictures of a scene: one panel for each that its file names.
 
 use super::Shown;
-use crate::cost::picture::{colour, label};
+use crate::cost::picture::colour;
 use crate::sweep::Table;
 use morula::dem::scene::shows::PlotPart;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
@@ -128,7 +128,37 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format(value: &f64) -> String {
-        label(value)
+        tick(*value)
+    }
+}
+
+/// A number at an axis: four digits, without zeros at its end.
+fn tick(v: f64) -> String {
+    if v == 0.0 {
+        return "0".into();
+    }
+    let size = v.abs().log10().floor();
+    if !(-4.0..5.0).contains(&size) {
+        return format!("{v:.1e}").replace(".0e", "e");
+    }
+    let text = format!("{v:.*}", (3.0 - size).max(0.0) as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tick;
+
+    #[test]
+    fn numbers_at_an_axis() {
+        let read = [0.0, 1e-17, 0.25, 1.2, 10.0, 1000.0, 130.05, -0.5, 0.00125, 2e-7, 3.4e6];
+        let said = [
+            "0", "1e-17", "0.25", "1.2", "10", "1000", "130.1", "-0.5", "0.00125", "2e-7", "3.4e6",
+        ];
+        assert_eq!(read.map(tick), said);
     }
 }
 
