@@ -148,20 +148,6 @@ fn tick(v: f64) -> String {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::tick;
-
-    #[test]
-    fn numbers_at_an_axis() {
-        let read = [0.0, 1e-17, 0.25, 1.2, 10.0, 1000.0, 130.05, -0.5, 0.00125, 2e-7, 3.4e6];
-        let said = [
-            "0", "1e-17", "0.25", "1.2", "10", "1000", "130.1", "-0.5", "0.00125", "2e-7", "3.4e6",
-        ];
-        assert_eq!(read.map(tick), said);
-    }
-}
-
 fn draw(
     area: &DrawingArea<SVGBackend<'_>, Shift>,
     lines: &[(String, Points)],
@@ -205,4 +191,18 @@ fn draw(
             .draw()?;
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tick;
+
+    #[test]
+    fn numbers_at_an_axis() {
+        let read = [0.0, 1e-17, 0.25, 1.2, 10.0, 1000.0, 130.05, -0.5, 0.00125, 2e-7, 3.4e6];
+        let said = [
+            "0", "1e-17", "0.25", "1.2", "10", "1000", "130.1", "-0.5", "0.00125", "2e-7", "3.4e6",
+        ];
+        assert_eq!(read.map(tick), said);
+    }
 }
