@@ -113,6 +113,10 @@ have gfortran || skip "Fortran cases of CTest" "gfortran is not installed"
 have_pkg_config() { have pkg-config || have pkgconf; }
 have_pkg_config || install pkg-config || true
 have_pkg_config || skip "pkg-config cases of CTest" "pkg-config is not installed"
+{ have mpicxx && have mpirun; } || install libopenmpi-dev openmpi-bin || true
+have mpicxx || skip "MPI cases of CTest" "mpicxx is not installed (package libopenmpi-dev)"
+python_with_numpy || { install python3-numpy && python_with_numpy; } ||
+    skip "Python case of CTest" "no python3 with numpy (MORULA_PYTHON names one)"
 tree=build/test
 step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release \
     -DMORULA_CARGO_TARGET_DIR="$(pwd)/target"

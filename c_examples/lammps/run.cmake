@@ -1,0 +1,18 @@
+# From a mesh to a simulation on two ranks, and back: PROGRAM is clump_for_lammps, LAMMPS and MPIEXEC
+# are programs, SOURCE this folder, FOLDER where it runs.
+cmake_minimum_required(VERSION 3.22)
+set(ENV{OMPI_ALLOW_RUN_AS_ROOT} 1)
+set(ENV{OMPI_ALLOW_RUN_AS_ROOT_CONFIRM} 1)
+set(ENV{OMPI_MCA_rmaps_base_oversubscribe} 1)
+set(ENV{OMPI_MCA_mpi_yield_when_idle} 1)
+set(ENV{OMP_NUM_THREADS} 1)
+file(MAKE_DIRECTORY "${FOLDER}")
+function(run)
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${FOLDER}" RESULT_VARIABLE failed)
+  if(failed)
+    message(FATAL_ERROR "${ARGN}: ${failed}")
+  endif()
+endfunction()
+run("${PROGRAM}" make "${SOURCE}/elbow.obj" elbow.mol body.txt)
+run("${MPIEXEC}" -np 2 "${LAMMPS}" -in "${SOURCE}/in.elbows" -log none)
+run("${PROGRAM}" check body.txt bodies.txt totals.txt)

@@ -1,0 +1,32 @@
+# One file of clumps for 1 to 4 ranks and for 1 to 8 threads, by checksum: runs each of
+# PROGRAMS in FOLDER with MPIEXEC.
+cmake_minimum_required(VERSION 3.22)
+# Debian's OpenMPI asks for these where it runs as root and with more ranks than cores.
+set(ENV{OMPI_ALLOW_RUN_AS_ROOT} 1)
+set(ENV{OMPI_ALLOW_RUN_AS_ROOT_CONFIRM} 1)
+set(ENV{OMPI_MCA_rmaps_base_oversubscribe} 1)
+set(ENV{OMPI_MCA_mpi_yield_when_idle} 1)
+set(first "")
+foreach(program IN LISTS PROGRAMS)
+  foreach(case IN ITEMS "1 1" "2 1" "3 1" "4 1" "1 2" "1 3" "1 4" "1 5" "1 6" "1 7" "1 8" "2 2")
+    separate_arguments(numbers UNIX_COMMAND "${case}")
+    list(GET numbers 0 ranks)
+    list(GET numbers 1 threads)
+    set(out "${FOLDER}/${program}.bin")
+    file(REMOVE "${out}")
+    execute_process(COMMAND ${MPIEXEC} -n ${ranks} "${FOLDER}/${program}" --threads ${threads}
+      --out "${out}" WORKING_DIRECTORY "${FOLDER}" RESULT_VARIABLE failed OUTPUT_VARIABLE said
+      ERROR_VARIABLE said)
+    if(failed)
+      message(FATAL_ERROR "${program}, ${ranks} ranks, ${threads} threads: ${failed}\n${said}")
+    endif()
+    file(SHA256 "${out}" sum)
+    message(STATUS "${program}, ${ranks} ranks, ${threads} threads each: ${sum}")
+    if(first STREQUAL "")
+      set(first ${sum})
+      message(STATUS "${said}")
+    elseif(NOT sum STREQUAL first)
+      message(SEND_ERROR "not the bytes of the first run: ${sum} instead of ${first}")
+    endif()
+  endforeach()
+endforeach()
