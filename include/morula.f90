@@ -79,6 +79,8 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_COST_OPTIONS = 20_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_COST_POINT = 21_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STRUCT_COST_BOUNDS = 22_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_SWEEP_OPTIONS = 23_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_STRUCT_SWEPT = 24_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_REFUSE = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_LARGEST = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_BODIES_ALL = 2_c_int32_t
@@ -544,6 +546,30 @@ module morula
     integer(c_int32_t) :: reserved = 0_c_int32_t
   end type morula_cost_bounds
 
+  type, bind(c), public :: morula_sweep_options
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    type(c_ptr) :: resolutions = c_null_ptr
+    integer(c_size_t) :: resolution_count = 0_c_size_t
+    type(c_ptr) :: methods = c_null_ptr
+    type(c_ptr) :: efforts = c_null_ptr
+    integer(c_size_t) :: method_count = 0_c_size_t
+    type(c_ptr) :: deadlines = c_null_ptr
+    integer(c_size_t) :: deadline_count = 0_c_size_t
+  end type morula_sweep_options
+
+  type, bind(c), public :: morula_swept
+    integer(c_size_t) :: struct_size = 0_c_size_t
+    real(c_double) :: resolution = 0.0_c_double
+    integer(c_int64_t) :: cells(3) = 0_c_int64_t
+    real(c_double) :: solid_seconds = 0.0_c_double
+    real(c_double) :: deadline = 0.0_c_double
+    integer(c_int64_t) :: lines = 0_c_int64_t
+    integer(c_int32_t) :: method = 0_c_int32_t
+    integer(c_int32_t) :: effort = 0_c_int32_t
+    integer(c_int32_t) :: status = 0_c_int32_t
+    integer(c_int32_t) :: cut = 0_c_int32_t
+  end type morula_swept
+
   ! ---- functions of morula.h ----
 
   public :: morula_version, morula_version_string, morula_status_name, morula_last_error_message
@@ -582,6 +608,8 @@ module morula
   public :: morula_cost_options_init, morula_cost_bounds_init, morula_cost_curve
   public :: morula_cost_count, morula_cost_cut, morula_cost_copy, morula_cost_clump
   public :: morula_cost_choose, morula_cost_free
+  public :: morula_sweep_options_init, morula_sweep_from_shape, morula_sweep_count
+  public :: morula_sweep_copy, morula_sweep_curve, morula_sweep_free
   public :: morula_cache_new, morula_cache_parent, morula_cache_counters, morula_cache_clear
   public :: morula_cache_free
   public :: morula_parent_from_solid, morula_parent_from_clump, morula_parent_bytes
@@ -1442,6 +1470,47 @@ module morula
       import
       type(c_ptr), value :: curve
     end subroutine morula_cost_free
+    function morula_sweep_options_init(options, size) bind(c) result(r)
+      import
+      type(morula_sweep_options), intent(out) :: options
+      integer(c_size_t), value :: size
+      integer(c_int32_t) :: r
+    end function morula_sweep_options_init
+    function morula_sweep_from_shape(shape, solid_options, options, cost, what, sweep) bind(c) &
+        result(r)
+      import
+      type(c_ptr), value :: shape
+      type(morula_solid_options), intent(in), optional :: solid_options
+      type(morula_clump_options), intent(in), optional :: options
+      type(morula_cost_options), intent(in), optional :: cost
+      type(morula_sweep_options), intent(in) :: what
+      type(c_ptr), intent(inout) :: sweep
+      integer(c_int32_t) :: r
+    end function morula_sweep_from_shape
+    function morula_sweep_count(sweep, count) bind(c) result(r)
+      import
+      type(c_ptr), value :: sweep
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_sweep_count
+    function morula_sweep_copy(sweep, capacity, lists) bind(c) result(r)
+      import
+      type(c_ptr), value :: sweep
+      integer(c_size_t), value :: capacity
+      type(morula_swept), intent(inout) :: lists(*)
+      integer(c_int32_t) :: r
+    end function morula_sweep_copy
+    function morula_sweep_curve(sweep, index, curve) bind(c) result(r)
+      import
+      type(c_ptr), value :: sweep
+      integer(c_size_t), value :: index
+      type(c_ptr), intent(inout) :: curve
+      integer(c_int32_t) :: r
+    end function morula_sweep_curve
+    subroutine morula_sweep_free(sweep) bind(c)
+      import
+      type(c_ptr), value :: sweep
+    end subroutine morula_sweep_free
     function morula_break_options_init(options, size) bind(c) result(r)
       import
       type(morula_break_options), intent(out) :: options
@@ -1788,6 +1857,28 @@ module morula
     final :: cost_final
   end type morula_cost_t
 
+  !> Price lists of one shape over resolutions, methods and deadlines.
+  type, public :: morula_sweep_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    !> Every resolution with every method and every deadline (by default: as long as it takes);
+    !> efforts, where there are some, are as many as methods.
+    procedure :: create => sweep_create
+    procedure :: count => sweep_count
+    !> What each list is of: the resolutions one after the other, in each the methods, of each
+    !> the deadlines.
+    procedure :: lists => sweep_lists
+    !> A list, counted from 1; the status says why it could not be made.
+    procedure :: curve => sweep_curve
+    procedure :: destroy => sweep_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => sweep_handle
+    procedure, private :: sweep_assign
+    generic :: assignment(=) => sweep_assign
+    final :: sweep_final
+  end type morula_sweep_t
+
   !> Prepared parents that are used again, within a bound of bytes.
   type, public :: morula_cache_t
     private
@@ -1852,7 +1943,7 @@ module morula
   !> Options with the defaults.
   interface morula_init
     procedure :: init_import, init_file, init_solid, init_clump, init_mass, init_contact, init_export
-    procedure :: init_break, init_held, init_cost, init_cost_bounds
+    procedure :: init_break, init_held, init_cost, init_cost_bounds, init_sweep
   end interface morula_init
 
   !> The labels of an array labels(nx, ny, nz), of a file (its path), of the bytes of a file.
@@ -2002,6 +2093,11 @@ contains
     type(morula_cost_bounds), intent(out) :: bounds
     call finish(morula_cost_bounds_init(bounds, c_sizeof(bounds)))
   end subroutine init_cost_bounds
+
+  subroutine init_sweep(options)
+    type(morula_sweep_options), intent(out) :: options
+    call finish(morula_sweep_options_init(options, c_sizeof(options)))
+  end subroutine init_sweep
 
   subroutine init_held(held, status)
     type(morula_held), intent(out) :: held
@@ -2980,6 +3076,105 @@ contains
     type(morula_cost_t), intent(inout) :: self
     call self%destroy()
   end subroutine cost_final
+
+  subroutine sweep_create(self, shape, resolutions, methods, efforts, deadlines, solid, options, &
+      cost, status)
+    class(morula_sweep_t), intent(inout) :: self
+    class(morula_shape_t), intent(in) :: shape
+    real(c_double), intent(in) :: resolutions(:)
+    integer(c_int32_t), intent(in) :: methods(:)
+    integer(c_int32_t), intent(in), optional :: efforts(:)
+    real(c_double), intent(in), optional :: deadlines(:)
+    type(morula_solid_options), intent(in), optional :: solid
+    type(morula_clump_options), intent(in), optional :: options
+    type(morula_cost_options), intent(in), optional :: cost
+    integer(c_int32_t), intent(out), optional :: status
+    real(c_double), target :: grids(max(1, size(resolutions)))
+    integer(c_int32_t), target :: ways(max(1, size(methods))), hard(max(1, size(methods)))
+    real(c_double), allocatable, target :: seconds(:)
+    type(morula_sweep_options) :: what
+    call self%destroy()
+    call morula_init(what)
+    grids(:size(resolutions)) = resolutions
+    ways(:size(methods)) = methods
+    what%resolutions = c_loc(grids)
+    what%resolution_count = size(resolutions, kind=c_size_t)
+    what%methods = c_loc(ways)
+    what%method_count = size(methods, kind=c_size_t)
+    if (present(efforts)) then
+      if (size(efforts) /= size(methods)) error stop 'morula: as many efforts as methods are needed'
+      hard(:size(efforts)) = efforts
+      what%efforts = c_loc(hard)
+    end if
+    if (present(deadlines)) then
+      seconds = [deadlines, 0.0_c_double]
+      what%deadline_count = size(deadlines, kind=c_size_t)
+    else
+      seconds = [0.0_c_double]
+      what%deadline_count = 1
+    end if
+    what%deadlines = c_loc(seconds)
+    call finish(morula_sweep_from_shape(shape%handle, solid, options, cost, what, self%handle), &
+      status)
+  end subroutine sweep_create
+
+  subroutine sweep_count(self, count, status)
+    class(morula_sweep_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_sweep_count(self%handle, n), status)
+    count = int(n)
+  end subroutine sweep_count
+
+  subroutine sweep_lists(self, lists, status)
+    class(morula_sweep_t), intent(in) :: self
+    type(morula_swept), allocatable, intent(out) :: lists(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    integer(c_int32_t) :: code
+    n = 0
+    code = morula_sweep_count(self%handle, n)
+    allocate(lists(n))
+    if (code == MORULA_STATUS_OK) then
+      lists%struct_size = c_sizeof(lists(1))
+      code = morula_sweep_copy(self%handle, n, lists)
+    end if
+    call finish(code, status)
+  end subroutine sweep_lists
+
+  subroutine sweep_curve(self, index, list, status)
+    class(morula_sweep_t), intent(in) :: self
+    integer, intent(in) :: index
+    class(morula_cost_t), intent(inout) :: list
+    integer(c_int32_t), intent(out), optional :: status
+    call list%destroy()
+    call finish(morula_sweep_curve(self%handle, int(index - 1, c_size_t), list%handle), status)
+  end subroutine sweep_curve
+
+  subroutine sweep_destroy(self)
+    class(morula_sweep_t), intent(inout) :: self
+    call morula_sweep_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine sweep_destroy
+
+  function sweep_handle(self) result(handle)
+    class(morula_sweep_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function sweep_handle
+
+  subroutine sweep_assign(self, other)
+    class(morula_sweep_t), intent(inout) :: self
+    class(morula_sweep_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine sweep_assign
+
+  impure elemental subroutine sweep_final(self)
+    type(morula_sweep_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine sweep_final
 
   ! ---- particles that may break ----
 

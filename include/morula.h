@@ -8,8 +8,8 @@
  * written only on success.
  *
  * Ownership. Handles (morula_shape, morula_solid, morula_clump, morula_body,
- * morula_files, morula_cost, morula_parent, morula_cache, morula_fragments) are made by the
- * library and taken back by their _free function, which ignores NULL. Arrays and strings
+ * morula_files, morula_cost, morula_sweep, morula_parent, morula_cache, morula_fragments)
+ * are made by the library and taken back by their _free function, which ignores NULL. Arrays and strings
  * that you hand in are copied before the call returns. Results are copied into
  * your arrays; nothing points into the library but the texts of the _name and
  * _version functions and the last message.
@@ -184,6 +184,12 @@
 
 /// morula_cost_bounds, for morula_sizeof().
 #define MORULA_STRUCT_COST_BOUNDS 22
+
+/// morula_sweep_options, for morula_sizeof().
+#define MORULA_STRUCT_SWEEP_OPTIONS 23
+
+/// morula_swept, for morula_sizeof().
+#define MORULA_STRUCT_SWEPT 24
 
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 #define MORULA_BODIES_REFUSE 0
@@ -509,8 +515,8 @@ typedef struct morula_cache morula_cache;
 typedef struct morula_clump morula_clump;
 
 /// A price list: for each number of spheres how good the clump is, how long it took and what a
-/// solver pays for it. Made by morula_cost_curve(), freed by morula_cost_free(). It needs the
-/// solid no more.
+/// solver pays for it. Made by morula_cost_curve() or morula_sweep_curve(), freed by morula_cost_free().
+/// It needs the solid no more.
 typedef struct morula_cost morula_cost;
 
 /// The files of a format in memory. Made by morula_body_export(), freed by morula_files_free().
@@ -533,6 +539,10 @@ typedef struct morula_shape morula_shape;
 /// A shape with a grid. Made by morula_solid_from_shape(), freed by
 /// morula_solid_free(). It does not need its shape any more.
 typedef struct morula_solid morula_solid;
+
+/// Price lists of one shape: for each resolution, in it for each method, of each for each deadline.
+/// Made by morula_sweep_from_shape(), freed by morula_sweep_free(). It needs the shape no more.
+typedef struct morula_sweep morula_sweep;
 
 /// Receives one line of log: `level` is one of MORULA_LOG_*, `text` lives until
 /// the sink returns. Called on the thread that made the call, maybe from
@@ -1038,6 +1048,54 @@ typedef struct morula_cost_point {
   /// Why the method stopped: one of MORULA_STOPPED_*.
   int32_t stopped;
 } morula_cost_point;
+
+/// What is swept over: every resolution with every method and every deadline. Fill it with
+/// morula_sweep_options_init(), which leaves all empty; none may stay so. The arrays are copied
+/// before the call returns.
+typedef struct morula_sweep_options {
+  /// sizeof(morula_sweep_options).
+  size_t struct_size;
+  /// Numbers of cells, along what morula_solid_options.resolution says; with
+  /// MORULA_RESOLUTION_CELL_SIZE edges of a cell. The grid of a voxel shape is its own: one is
+  /// enough.
+  const double *resolutions;
+  /// Number of resolutions.
+  size_t resolution_count;
+  /// Methods: MORULA_METHOD_*.
+  const int32_t *methods;
+  /// Their efforts: MORULA_EFFORT_*, as many as methods; NULL: that of the clump options for all.
+  const int32_t *efforts;
+  /// Number of methods.
+  size_t method_count;
+  /// Seconds that each clump may take; 0: as long as it takes.
+  const double *deadlines;
+  /// Number of deadlines.
+  size_t deadline_count;
+} morula_sweep_options;
+
+/// What one price list of a sweep is of.
+typedef struct morula_swept {
+  /// sizeof(morula_swept), set by the caller in the first of an array.
+  size_t struct_size;
+  /// The resolution, as it stood in the options.
+  double resolution;
+  /// Cells along x, y, z, padding included; 0 where the solid could not be made.
+  uint64_t cells[3];
+  /// Seconds that the solid took, once for all lists of one resolution.
+  double solid_seconds;
+  /// Seconds that each clump was given; 0: as long as it takes.
+  double deadline;
+  /// Lines of the list; 0 where there is none.
+  uint64_t lines;
+  /// One of MORULA_METHOD_*.
+  int32_t method;
+  /// One of MORULA_EFFORT_*.
+  int32_t effort;
+  /// MORULA_STATUS_OK, or why there is no list.
+  int32_t status;
+  /// 1: cancel or the sweep's deadline ended the list before its last number of spheres.
+  int32_t cut;
+} morula_swept;
 
 /// How the spheres of a clump are weighed. Fill it with morula_mass_options_init().
 typedef struct morula_mass_options {
@@ -2150,6 +2208,71 @@ int32_t morula_cost_choose(const struct morula_cost *curve,
 /// Takes a price list back. NULL is ignored; a handle must not be used afterwards.
 /// Threads: no other thread may use the handle.
 void morula_cost_free(struct morula_cost *curve);
+
+/// Fills options that sweep over nothing yet.
+///
+/// Parameters: `size` is sizeof *options.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE when no release had a struct of this size.
+/// Threads: any thread.
+int32_t morula_sweep_options_init(struct morula_sweep_options *options,
+                                  size_t size);
+
+/// Makes the price lists of a shape over resolutions, methods and deadlines.
+///
+/// Parameters: `solid_options` and `options` may be NULL for the defaults; of the former the
+/// number of cells (with MORULA_RESOLUTION_CELL_SIZE the edge of a cell) is not read, of the latter
+/// neither the method nor, where the sweep has efforts, the effort, nor what morula_cost_curve()
+/// does not read. Threads, progress and user are those of `options`, whose deadline is one for the
+/// whole sweep: the lists that are begun after it have a line each. `cost` may be NULL for the
+/// defaults; its `seconds` are not read. `what` says what is swept over.
+/// Returns: MORULA_STATUS_OK, also when some lists could not be made, or the callback cancelled
+/// after there was a line: morula_swept has the status of each list; where there is no list at
+/// all, the status of the first; NULL_POINTER; EMPTY (nothing to sweep over);
+/// INVALID_ARGUMENT (a resolution, method, effort or deadline that is none, an option);
+/// STRUCT_SIZE; TOO_LARGE; OUT_OF_MEMORY; INTERNAL.
+/// Ownership: the shape stays the caller's and may be freed at once; free *sweep with
+/// morula_sweep_free(). *sweep is written only on success.
+/// Threads: any thread; the shape is only read. But for seconds the same bytes come out for any
+/// number of threads, as long as no deadline is met.
+int32_t morula_sweep_from_shape(const struct morula_shape *shape,
+                                const struct morula_solid_options *solid_options,
+                                const struct morula_clump_options *options,
+                                const struct morula_cost_options *cost,
+                                const struct morula_sweep_options *what,
+                                struct morula_sweep **sweep);
+
+/// How many price lists a sweep has, those that could not be made among them.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_sweep_count(const struct morula_sweep *sweep, size_t *count);
+
+/// Copies what each price list is of: the resolutions one after the other, in each the methods, of
+/// each the deadlines.
+///
+/// Parameters: `lists` has room for `capacity` structs, one after the other, all of the size that
+/// struct_size of the first says; that of the others is set.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written); STRUCT_SIZE.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_sweep_copy(const struct morula_sweep *sweep,
+                          size_t capacity,
+                          struct morula_swept *lists);
+
+/// A price list of a sweep.
+///
+/// Parameters: `index` counts lists from 0, in the order of morula_sweep_copy().
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; where the list could not be made,
+/// the status that morula_swept has, with its sentence: CANCELLED for one that was not begun.
+/// Ownership: free *curve with morula_cost_free(); it lives on without the sweep. *curve is
+/// written only on success.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_sweep_curve(const struct morula_sweep *sweep,
+                           size_t index,
+                           struct morula_cost **curve);
+
+/// Takes a sweep back. NULL is ignored; a handle must not be used afterwards.
+/// Threads: no other thread may use the handle.
+void morula_sweep_free(struct morula_sweep *sweep);
 
 /// Fills options with the defaults.
 ///

@@ -58,6 +58,7 @@ struct Free {
   void operator()(morula_body *p) const noexcept { morula_body_free(p); }
   void operator()(morula_files *p) const noexcept { morula_files_free(p); }
   void operator()(morula_cost *p) const noexcept { morula_cost_free(p); }
+  void operator()(morula_sweep *p) const noexcept { morula_sweep_free(p); }
   void operator()(morula_parent *p) const noexcept { morula_parent_free(p); }
   void operator()(morula_cache *p) const noexcept { morula_cache_free(p); }
   void operator()(morula_fragments *p) const noexcept { morula_fragments_free(p); }
@@ -1068,7 +1069,67 @@ class Cost {
   const morula_cost *get() const noexcept { return handle_.get(); }
 
  private:
+  friend class Sweep;
+  explicit Cost(detail::Handle<morula_cost> handle) : handle_(std::move(handle)) {}
   detail::Handle<morula_cost> handle_;
+};
+
+/// What is swept over: every resolution with every method and every deadline.
+struct SweepOver {
+  /// Numbers of cells along what SolidOptions::resolution says, or edges of a cell.
+  std::vector<double> resolutions;
+  /// MORULA_METHOD_*.
+  std::vector<std::int32_t> methods;
+  /// MORULA_EFFORT_*, as many as methods; none: that of the clump options for all.
+  std::vector<std::int32_t> efforts;
+  /// Seconds that each clump may take; 0: as long as it takes.
+  std::vector<double> deadlines{0.0};
+};
+
+/// Price lists of one shape over resolutions, methods and deadlines.
+class Sweep {
+ public:
+  explicit Sweep(const Shape &shape, const SweepOver &over, const SolidOptions &solid = {},
+                 const ClumpOptions &options = {}, const CostOptions &cost = {},
+                 Progress progress = {})
+      : handle_(detail::made<morula_sweep>(
+            options, std::move(progress), [&](const auto &o, morula_sweep **out) {
+              if (!over.efforts.empty() && over.efforts.size() != over.methods.size())
+                throw std::invalid_argument("a sweep needs as many efforts as methods, or none");
+              auto what = detail::defaults(morula_sweep_options_init);
+              what.resolutions = over.resolutions.data();
+              what.resolution_count = over.resolutions.size();
+              what.methods = over.methods.data();
+              what.efforts = over.efforts.empty() ? nullptr : over.efforts.data();
+              what.method_count = over.methods.size();
+              what.deadlines = over.deadlines.data();
+              what.deadline_count = over.deadlines.size();
+              return morula_sweep_from_shape(shape.get(), &solid, &o, &cost, &what, out);
+            })) {}
+
+  std::size_t size() const {
+    std::size_t n = 0;
+    check(morula_sweep_count(get(), &n));
+    return n;
+  }
+  /// What each list is of: the resolutions one after the other, in each the methods, of each the
+  /// deadlines.
+  std::vector<morula_swept> lists() const {
+    std::vector<morula_swept> all(size());
+    all[0].struct_size = sizeof all[0];
+    check(morula_sweep_copy(get(), all.size(), all.data()));
+    return all;
+  }
+  /// A list, which lives on without the sweep. Throws why it could not be made.
+  Cost curve(std::size_t index) const {
+    morula_cost *raw = nullptr;
+    check(morula_sweep_curve(get(), index, &raw));
+    return Cost(detail::Handle<morula_cost>(raw));
+  }
+  const morula_sweep *get() const noexcept { return handle_.get(); }
+
+ private:
+  detail::Handle<morula_sweep> handle_;
 };
 
 /// Rotations (w, x, y, z) drawn evenly from all: the same for the same seed.

@@ -106,7 +106,8 @@ def hardware():
         "```sh", "morula cost stone.stl -n 100 -o stone        # the table, stone.csv, stone.svg, stone.html",
         "morula cost stone.stl --goal spheres --max-mismatch 0.05 --no-files",
         "morula cost stone.stl --goal mismatch --max-step-cost 50 --max-seconds 0.1 --no-files", "```", "",
-        "From C: `morula_cost_curve`, `_copy`, `_clump`, `_choose`; in Rust `cost::{curve, choose, sweep}`.", "",
+        "From C: `morula_cost_curve`, `_copy`, `_clump`, `_choose`, and `morula_sweep_from_shape` over grids, methods and deadlines;",
+        "in Rust `cost::{curve, choose, sweep}`; on the command line `--sweep-cells 24,48 --methods best,mss --seconds 0,0.01`.", "",
         "![The page of a stone](cost.png)", "")
 
 

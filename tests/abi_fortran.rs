@@ -56,9 +56,8 @@ fn c_kind(c: &str) -> Kind {
         "char" => "char",
         "void" if !c.contains('*') => "nothing",
         "morula_shape" | "morula_solid" | "morula_clump" | "morula_body" | "morula_files"
-        | "morula_cost" | "morula_parent" | "morula_cache" | "morula_fragments" | "void" => {
-            "handle"
-        }
+        | "morula_cost" | "morula_sweep" | "morula_parent" | "morula_cache"
+        | "morula_fragments" | "void" => "handle",
         "morula_progress" | "morula_log" => "callback",
         other => other,
     };
@@ -162,7 +161,7 @@ fn fortran_declaration(line: &str, argument: bool) -> (Kind, String) {
 fn same(c: &str, fortran: &str) -> bool {
     c == fortran
         || (fortran == "pointer"
-            && matches!(c, "char*" | "double*" | "int64*" | "morula_contact_options*"))
+            && matches!(c, "char*" | "double*" | "int32*" | "int64*" | "morula_contact_options*"))
 }
 
 #[test]
@@ -185,7 +184,7 @@ fn functions_have_the_same_names_and_arguments() {
 fn structs_have_the_same_fields() {
     let c = c_interface().structs;
     let fortran = fortran_interface(&read("morula.f90")).structs;
-    assert_eq!(c.len(), 22);
+    assert_eq!(c.len(), 24);
     assert_eq!(c.keys().collect::<Vec<_>>(), fortran.keys().collect::<Vec<_>>());
     for (name, ours) in &c {
         let theirs = &fortran[name];

@@ -31,6 +31,11 @@ int main(void) {
   CHECK(morula_sizeof(MORULA_STRUCT_CONTACT_OPTIONS) == sizeof(morula_contact_options));
   CHECK(morula_sizeof(MORULA_STRUCT_TIMESTEP) == sizeof(morula_timestep));
   CHECK(morula_sizeof(MORULA_STRUCT_EXPORT_OPTIONS) == sizeof(morula_export_options));
+  CHECK(morula_sizeof(MORULA_STRUCT_COST_OPTIONS) == sizeof(morula_cost_options));
+  CHECK(morula_sizeof(MORULA_STRUCT_COST_POINT) == sizeof(morula_cost_point));
+  CHECK(morula_sizeof(MORULA_STRUCT_COST_BOUNDS) == sizeof(morula_cost_bounds));
+  CHECK(morula_sizeof(MORULA_STRUCT_SWEEP_OPTIONS) == sizeof(morula_sweep_options));
+  CHECK(morula_sizeof(MORULA_STRUCT_SWEPT) == sizeof(morula_swept));
   CHECK(morula_sizeof(0) == 0 && morula_sizeof(-1) == 0 && morula_sizeof(1000) == 0);
   ENDS_WITH(morula_import_options, user);
   ENDS_WITH(morula_file_options, reserved);

@@ -1,6 +1,7 @@
 // What accuracy costs in time, through the C++ face: the list, a choice, and its clump.
 #include <cstdio>
 #include <morula.hpp>
+#include <stdexcept>
 
 static int made = 0, failed = 0;
 #define CHECK(condition)                                                           \
@@ -41,6 +42,39 @@ int main() {
     CHECK(false);
   } catch (const morula::Error &error) {
     CHECK(error.status() == MORULA_STATUS_INDEX_OUT_OF_RANGE);
+  }
+
+  // Two grids with two methods; the efforts are their own.
+  morula::SweepOver over;
+  over.resolutions = {16, 24};
+  over.methods = {MORULA_METHOD_BEST, MORULA_METHOD_COVER};
+  over.efforts = {MORULA_EFFORT_DRAFT, MORULA_EFFORT_NORMAL};
+  options.most = 4;
+  done = 0;
+  const auto shape = morula::Shape::from_primitive("stone");
+  const morula::Sweep sweep(shape, over, {}, how, options, [&](double fraction) {
+    CHECK(fraction >= done);
+    done = fraction;
+    return true;
+  });
+  const auto lists = sweep.lists();
+  CHECK(lists.size() == 4 && sweep.size() == 4 && done > 0.9);
+  CHECK(lists[1].resolution == 16 && lists[1].method == MORULA_METHOD_COVER);
+  CHECK(lists[2].resolution == 24 && lists[2].effort == MORULA_EFFORT_DRAFT);
+  CHECK(lists[0].solid_seconds > 0 && lists[2].cells[0] > lists[0].cells[0]);
+  const morula::Cost finer = sweep.curve(2);
+  CHECK(finer.points().back().spheres == 4 && finer.size() == lists[2].lines);
+  try {
+    sweep.curve(4);
+    CHECK(false);
+  } catch (const morula::Error &error) {
+    CHECK(error.status() == MORULA_STATUS_INDEX_OUT_OF_RANGE);
+  }
+  over.methods.pop_back();
+  try {
+    morula::Sweep none(shape, over);
+    CHECK(false);
+  } catch (const std::invalid_argument &) {
   }
   std::printf("%d checks, %d failed\n", made, failed);
   return failed != 0;

@@ -67,6 +67,8 @@ contains
     type(morula_cost_options) :: cost_options
     type(morula_cost_point) :: cost_point
     type(morula_cost_bounds) :: cost_bounds
+    type(morula_sweep_options) :: sweep_options
+    type(morula_swept) :: swept
     type(morula_mass_options) :: mass_options
     type(morula_masses) :: masses
     type(morula_contact_options) :: contact_options
@@ -94,7 +96,9 @@ contains
     call same_size(MORULA_STRUCT_COST_OPTIONS, c_sizeof(cost_options))
     call same_size(MORULA_STRUCT_COST_POINT, c_sizeof(cost_point))
     call same_size(MORULA_STRUCT_COST_BOUNDS, c_sizeof(cost_bounds))
-    call check(morula_sizeof(MORULA_STRUCT_COST_BOUNDS + 1) == 0, 'every struct is compared')
+    call same_size(MORULA_STRUCT_SWEEP_OPTIONS, c_sizeof(sweep_options))
+    call same_size(MORULA_STRUCT_SWEPT, c_sizeof(swept))
+    call check(morula_sizeof(MORULA_STRUCT_SWEPT + 1) == 0, 'every struct is compared')
   end subroutine sizes
 
   subroutine same_size(which, ours)

@@ -9,6 +9,8 @@ program fortran_cost
   type(morula_shape_t) :: shape
   type(morula_solid_t) :: solid
   type(morula_cost_t) :: list
+  type(morula_sweep_t) :: sweep
+  type(morula_swept), allocatable :: lists(:)
   type(morula_clump_t) :: clump
   type(morula_clump_options) :: how
   type(morula_cost_options) :: options
@@ -52,6 +54,28 @@ program fortran_cost
   call list%clump(4, clump, status)
   call check(status == MORULA_STATUS_INDEX_OUT_OF_RANGE, 'no such line')
   call check(c_associated(list%c_handle()), 'the handle')
+
+  ! Two grids, two methods.
+  call sweep%create(shape, [16.0_c_double, 24.0_c_double], &
+    [MORULA_METHOD_BEST, MORULA_METHOD_MSS], [MORULA_EFFORT_DRAFT, MORULA_EFFORT_NORMAL], &
+    options=how, cost=options)
+  call sweep%count(n)
+  call sweep%lists(lists)
+  call check(n == 4 .and. size(lists) == 4, 'four lists')
+  call check(all(lists%status == MORULA_STATUS_OK) .and. all(lists%lines == 3), 'all were made')
+  call check(lists(1)%method == MORULA_METHOD_BEST .and. lists(2)%method == MORULA_METHOD_MSS, &
+    'the methods')
+  call check(lists(3)%resolution == 24 .and. lists(1)%cells(1) < lists(3)%cells(1), 'the grids')
+  call sweep%curve(3, list)
+  call list%count(n)
+  call check(n == 3, 'the list of the finer grid')
+  call sweep%curve(5, list, status)
+  call check(status == MORULA_STATUS_INDEX_OUT_OF_RANGE, 'no such list')
+  call check(c_associated(sweep%c_handle()), 'the handle of the sweep')
+  call sweep%create(shape, [16.0_c_double], [MORULA_METHOD_BEST], [MORULA_EFFORT_DRAFT], &
+    [-1.0_c_double], status=status)
+  call check(status == MORULA_STATUS_INVALID_ARGUMENT, 'a deadline before the beginning')
+  call sweep%destroy()
   call list%destroy()
   call clump%destroy()
   call solid%destroy()

@@ -13,4 +13,4 @@ mod sweep;
 pub use choose::{Bounds, Choice, Goal, choose};
 pub use curve::{Curve, CurveOptions, Point, curve, ladder};
 pub use step::StepModel;
-pub use sweep::{SweepOptions, Swept, sweep};
+pub use sweep::{SweepOptions, Swept, sweep, sweep_each};

@@ -1,9 +1,9 @@
 //! Curves over methods, resolutions and deadlines.
 
 use super::curve::{Curve, CurveOptions, curve};
-use crate::error::{Error, Result, reserve};
+use crate::error::{Error, Result, figure, reserve};
 use crate::generate::{Effort, Method};
-use crate::run::{Run, Stage};
+use crate::run::{Counters, Run, Stage};
 use crate::shape::Shape;
 use crate::solid::{Resolution, Solid, SolidOptions};
 
@@ -44,32 +44,40 @@ pub struct Swept {
 /// machine and any number of threads. After a cancel the curves that were not begun are
 /// [`Error::Cancelled`]; a solid that fails is the error of its curves.
 pub fn sweep(shape: &Shape, options: &SweepOptions, run: &Run) -> Result<Vec<Swept>> {
-    for (name, none) in [
-        ("resolution", options.resolutions.is_empty()),
-        ("method", options.methods.is_empty()),
-        ("deadline", options.seconds.is_empty()),
-    ] {
-        if none {
-            return Err(Error::Empty(format!("there is no {name} to sweep over")));
-        }
-    }
-    let (methods, deadlines) = (options.methods.len(), options.seconds.len());
-    let all = options.resolutions.len().saturating_mul(methods).saturating_mul(deadlines);
-    let mut swept = reserve("curves", all)?;
+    let mut swept = reserve("curves", options.curves())?;
+    sweep_each(shape, options, run, |_, one| {
+        swept.push(one);
+        Ok(())
+    })?;
+    Ok(swept)
+}
+
+/// As [`sweep`], but hands each curve over when it is made, with its solid, and what was counted
+/// while that was made, where there is one. An error of `take` ends the sweep.
+pub fn sweep_each(
+    shape: &Shape,
+    options: &SweepOptions,
+    run: &Run,
+    mut take: impl FnMut(Option<(&Solid, &Counters)>, Swept) -> Result<()>,
+) -> Result<()> {
+    options.check()?;
+    let all = options.curves();
+    let part = |k: usize| k as f64 / all as f64;
+    let mut k = 0;
     for &resolution in &options.resolutions {
         run.count_anew();
-        let part = |k: usize| k as f64 / all as f64;
-        let first = swept.len();
+        let first = k;
         let wanted = SolidOptions { resolution, ..options.solid };
         let each = part(1) * 0.1;
         let solid = run.within([part(first), part(first) + each], || {
             run.check(0.0, "making the solids of a sweep")?;
             Solid::new(shape, &wanted, run)
         });
-        let solid_seconds = run.counters().seconds[Stage::Solid as usize];
+        let counters = run.counters();
+        let solid_seconds = counters.seconds[Stage::Solid as usize];
+        let cells = solid.as_ref().map_or([0; 3], |s| s.grid().dims);
         for &method in &options.methods {
             for &seconds in &options.seconds {
-                let k = swept.len();
                 let from = if k == first { part(k) + each } else { part(k) };
                 let curve = run.within([from, part(k + 1)], || {
                     let solid = solid.as_ref().map_err(Error::clone)?;
@@ -78,12 +86,42 @@ pub fn sweep(shape: &Shape, options: &SweepOptions, run: &Run) -> Result<Vec<Swe
                     (wanted.generate.method, wanted.generate.effort) = method;
                     curve(solid, &wanted, run)
                 });
-                let cells = solid.as_ref().map_or([0; 3], |s| s.grid().dims);
-                swept.push(Swept { resolution, cells, solid_seconds, method, seconds, curve });
+                let of = solid.as_ref().ok().map(|s| (s, &counters));
+                take(of, Swept { resolution, cells, solid_seconds, method, seconds, curve })?;
+                k += 1;
             }
         }
     }
-    Ok(swept)
+    Ok(())
+}
+
+impl SweepOptions {
+    /// How many curves there will be.
+    pub fn curves(&self) -> usize {
+        let methods = self.methods.len();
+        self.resolutions.len().saturating_mul(methods).saturating_mul(self.seconds.len())
+    }
+
+    /// Refused: nothing to sweep over, seconds that are not numbers of 0 or more.
+    fn check(&self) -> Result<()> {
+        for (name, none) in [
+            ("resolution", self.resolutions.is_empty()),
+            ("method", self.methods.is_empty()),
+            ("deadline", self.seconds.is_empty()),
+        ] {
+            if none {
+                return Err(Error::Empty(format!("there is no {name} to sweep over")));
+            }
+        }
+        let wrong = |s: &f64| !(s.is_finite() && *s >= 0.0);
+        if let Some(k) = self.seconds.iter().position(wrong) {
+            return Err(Error::InvalidArgument(format!(
+                "deadline {k} is {}, not a number ≥ 0",
+                figure(self.seconds[k])
+            )));
+        }
+        Ok(())
+    }
 }
 
 #[cfg(test)]

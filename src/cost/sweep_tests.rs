@@ -35,6 +35,13 @@ fn every_combination_has_its_curve() {
     let some = sweep(&shape, &options, &cancel).unwrap();
     assert_eq!(some.len(), 4);
     assert!(some[0].curve.is_ok() && some[3].curve.is_err());
+    // One deadline that is no number: refused before anything is made.
+    for bad in [f64::NAN, f64::INFINITY, -1.0] {
+        let never = Run::serial().with_progress(Box::new(|_| panic!("work was begun")));
+        let wrong = SweepOptions { seconds: vec![0.0, bad], ..options.clone() };
+        let refused = sweep(&shape, &wrong, &never);
+        assert!(matches!(refused, Err(Error::InvalidArgument(t)) if t.contains("deadline 1")));
+    }
     let nothing = SweepOptions { methods: Vec::new(), ..options };
     assert!(matches!(sweep(&shape, &nothing, &run), Err(Error::Empty(t)) if t.contains("method")));
 }

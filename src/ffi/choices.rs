@@ -44,6 +44,10 @@ pub const MORULA_STRUCT_COST_OPTIONS: i32 = 20;
 pub const MORULA_STRUCT_COST_POINT: i32 = 21;
 /// morula_cost_bounds, for morula_sizeof().
 pub const MORULA_STRUCT_COST_BOUNDS: i32 = 22;
+/// morula_sweep_options, for morula_sizeof().
+pub const MORULA_STRUCT_SWEEP_OPTIONS: i32 = 23;
+/// morula_swept, for morula_sizeof().
+pub const MORULA_STRUCT_SWEPT: i32 = 24;
 
 /// Refuse a shape of several disconnected bodies, with the count (the default).
 pub const MORULA_BODIES_REFUSE: i32 = 0;

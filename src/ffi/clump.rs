@@ -85,13 +85,9 @@ unsafe fn symmetry(o: &morula_clump_options) -> Result<Symmetry> {
     }
 }
 
-pub(super) unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<(Asked, Run<'a>)> {
-    let o = unsafe { read(options)? };
-    reserved("clump", o.reserved)?;
-    let no_choice = |name: &str, value: i32| {
-        Err(Error::InvalidArgument(format!("{name} is {value}, no choice")))
-    };
-    let method = match o.method {
+/// The method of a MORULA_METHOD_*.
+pub(super) fn method(value: i32) -> Result<Method> {
+    Ok(match value {
         MORULA_METHOD_MSS => Method::Mss,
         MORULA_METHOD_BEST => Method::Best,
         MORULA_METHOD_SURFACE_FIT => Method::SurfaceFit,
@@ -102,14 +98,27 @@ pub(super) unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<(
         MORULA_METHOD_FERELLEC_MCDOWELL => Method::FerellecMcDowell,
         MORULA_METHOD_FAVIER => Method::Favier,
         MORULA_METHOD_UNIFORM_GRID => Method::UniformGrid,
-        other => return no_choice("method", other),
+        other => return Err(Error::InvalidArgument(format!("method is {other}, no choice"))),
+    })
+}
+
+/// The effort of a MORULA_EFFORT_*.
+pub(super) fn effort(value: i32) -> Result<Effort> {
+    match value {
+        MORULA_EFFORT_DRAFT => Ok(Effort::Draft),
+        MORULA_EFFORT_NORMAL => Ok(Effort::Normal),
+        MORULA_EFFORT_THOROUGH => Ok(Effort::Thorough),
+        other => Err(Error::InvalidArgument(format!("effort is {other}, no choice"))),
+    }
+}
+
+pub(super) unsafe fn asked<'a>(options: *const morula_clump_options) -> Result<(Asked, Run<'a>)> {
+    let o = unsafe { read(options)? };
+    reserved("clump", o.reserved)?;
+    let no_choice = |name: &str, value: i32| {
+        Err(Error::InvalidArgument(format!("{name} is {value}, no choice")))
     };
-    let effort = match o.effort {
-        MORULA_EFFORT_DRAFT => Effort::Draft,
-        MORULA_EFFORT_NORMAL => Effort::Normal,
-        MORULA_EFFORT_THOROUGH => Effort::Thorough,
-        other => return no_choice("effort", other),
-    };
+    let (method, effort) = (method(o.method)?, effort(o.effort)?);
     let ends = match o.ends {
         MORULA_ENDS_SURFACE => Ends::Surface,
         MORULA_ENDS_CURVE => Ends::Curve,

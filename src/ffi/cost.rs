@@ -1,7 +1,7 @@
 //! What accuracy costs in time.
 
 use super::choices::*;
-use super::clump::{asked, morula_clump};
+use super::clump::{Asked, asked, morula_clump};
 use super::clump_read::stopped_choice;
 use super::cost_structs::*;
 use super::guard::{borrow, check_bytes, copy_text, give, guard, require, slice, take};
@@ -12,15 +12,45 @@ use crate::cost::{Bounds, Curve, CurveOptions, Goal, Point, StepModel, choose, c
 use crate::error::{Error, Result, reserve};
 use crate::generate::Levels;
 use crate::mass::{Contact, ContactOptions, MassStatus};
+use crate::run::Counters;
+use crate::solid::Solid;
 use std::ffi::c_char;
+use std::sync::Arc;
 
 /// A price list: for each number of spheres how good the clump is, how long it took and what a
-/// solver pays for it. Made by morula_cost_curve(), freed by morula_cost_free(). It needs the
-/// solid no more.
-pub struct morula_cost {
-    points: Vec<Point>,
+/// solver pays for it. Made by morula_cost_curve() or morula_sweep_curve(), freed by morula_cost_free().
+/// It needs the solid no more.
+#[derive(Clone)]
+pub struct morula_cost(pub(super) Arc<List>);
+
+/// Shared by the handles of one list.
+pub(super) struct List {
+    pub points: Vec<Point>,
     clumps: Vec<morula_clump>,
-    cut: bool,
+    pub cut: bool,
+}
+
+impl morula_cost {
+    /// The handle of a curve; `before` is what the calls that made shape and solid did.
+    pub(super) fn new(
+        made: Curve,
+        asked: &Asked,
+        surface: bool,
+        solid: &Solid,
+        before: &Counters,
+    ) -> Result<morula_cost> {
+        let mut wants = MORULA_WANT_OVERLAP | MORULA_WANT_MOMENTS;
+        if surface {
+            wants |= MORULA_WANT_SURFACE;
+        }
+        let mut clumps = reserve("clumps", made.clumps.len())?;
+        for one in made.clumps {
+            let mut clump = asked.wrap(solid, one, before)?;
+            (clump.wants, clump.planes) = (wants, false);
+            clumps.push(clump);
+        }
+        Ok(morula_cost(Arc::new(List { points: made.points, clumps, cut: made.cut })))
+    }
 }
 
 const _: () = {
@@ -63,7 +93,7 @@ fn yes(name: &str, value: i32) -> Result<bool> {
     }
 }
 
-unsafe fn wanted(o: &morula_cost_options) -> Result<CurveOptions> {
+pub(super) unsafe fn wanted(o: &morula_cost_options) -> Result<CurveOptions> {
     let counts = unsafe { slice(o.counts, o.count, "counts")? };
     let number = |n: u64| usize::try_from(n).unwrap_or(usize::MAX);
     let counts = match counts {
@@ -134,18 +164,10 @@ pub unsafe extern "C" fn morula_cost_curve(
         let mut wanted = unsafe { wanted(&read(cost)?)? };
         let (asked, run) = unsafe { asked(options)? };
         wanted.generate = asked.generate.clone();
-        let Curve { points, clumps: made, cut, .. } = self::curve(&solid.inner, &wanted, &run)?;
-        let mut wants = MORULA_WANT_OVERLAP | MORULA_WANT_MOMENTS;
-        if wanted.quality.surface {
-            wants |= MORULA_WANT_SURFACE;
-        }
-        let mut clumps = reserve("clumps", made.len())?;
-        for one in made {
-            let mut clump = asked.wrap(&solid.inner, one, &solid.counters)?;
-            (clump.wants, clump.planes) = (wants, false);
-            clumps.push(clump);
-        }
-        unsafe { give(curve, morula_cost { points, clumps, cut }) };
+        let made = self::curve(&solid.inner, &wanted, &run)?;
+        let surface = wanted.quality.surface;
+        let made = morula_cost::new(made, &asked, surface, &solid.inner, &solid.counters)?;
+        unsafe { give(curve, made) };
         Ok(())
     })
 }
@@ -158,7 +180,7 @@ pub unsafe extern "C" fn morula_cost_curve(
 pub unsafe extern "C" fn morula_cost_count(curve: *const morula_cost, count: *mut usize) -> i32 {
     guard(|| {
         let curve = unsafe { borrow(curve, "curve")? };
-        unsafe { put(count, curve.points.len(), "count") }
+        unsafe { put(count, curve.0.points.len(), "count") }
     })
 }
 
@@ -170,7 +192,7 @@ pub unsafe extern "C" fn morula_cost_count(curve: *const morula_cost, count: *mu
 pub unsafe extern "C" fn morula_cost_cut(curve: *const morula_cost, cut: *mut i32) -> i32 {
     guard(|| {
         let curve = unsafe { borrow(curve, "curve")? };
-        unsafe { put(cut, i32::from(curve.cut), "cut") }
+        unsafe { put(cut, i32::from(curve.0.cut), "cut") }
     })
 }
 
@@ -220,7 +242,7 @@ pub unsafe extern "C" fn morula_cost_copy(
 ) -> i32 {
     guard(|| {
         let curve = unsafe { borrow(curve, "curve")? };
-        let count = curve.points.len();
+        let count = curve.0.points.len();
         unsafe { check(points)? };
         if capacity < count {
             return Err(Error::BufferTooSmall(format!(
@@ -229,7 +251,7 @@ pub unsafe extern "C" fn morula_cost_copy(
         }
         check_bytes::<morula_cost_point>(count, "points")?;
         let size = unsafe { points.cast::<usize>().read() };
-        for (i, p) in curve.points.iter().enumerate() {
+        for (i, p) in curve.0.points.iter().enumerate() {
             let one = points.cast::<u8>().wrapping_add(i * size).cast::<morula_cost_point>();
             require(one, "points")?;
             unsafe {
@@ -257,10 +279,10 @@ pub unsafe extern "C" fn morula_cost_clump(
     guard(|| {
         let curve = unsafe { borrow(curve, "curve")? };
         require(clump, "clump")?;
-        let of = curve.clumps.get(index).ok_or_else(|| {
+        let of = curve.0.clumps.get(index).ok_or_else(|| {
             Error::IndexOutOfRange(format!(
                 "line {index} is not among the {} of the list",
-                curve.clumps.len()
+                curve.0.clumps.len()
             ))
         })?;
         let copy = morula_clump {
@@ -323,7 +345,7 @@ pub unsafe extern "C" fn morula_cost_choose(
         let curve = unsafe { borrow(curve, "curve")? };
         require(index, "index")?;
         let (bounds, goal) = self::bounds(&unsafe { read(bounds)? })?;
-        let choice = choose(&curve.points, &bounds, goal)?;
+        let choice = choose(&curve.0.points, &bounds, goal)?;
         if !(capacity == 0 && text.is_null() && length.is_null()) {
             unsafe { copy_text(&choice.why, capacity, text, length)? };
         }

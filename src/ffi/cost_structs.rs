@@ -121,3 +121,55 @@ pub struct morula_cost_bounds {
     /// Must be 0.
     pub reserved: i32,
 }
+
+/// What is swept over: every resolution with every method and every deadline. Fill it with
+/// morula_sweep_options_init(), which leaves all empty; none may stay so. The arrays are copied
+/// before the call returns.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_sweep_options {
+    /// sizeof(morula_sweep_options).
+    pub struct_size: usize,
+    /// Numbers of cells, along what morula_solid_options.resolution says; with
+    /// MORULA_RESOLUTION_CELL_SIZE edges of a cell. The grid of a voxel shape is its own: one is
+    /// enough.
+    pub resolutions: *const f64,
+    /// Number of resolutions.
+    pub resolution_count: usize,
+    /// Methods: MORULA_METHOD_*.
+    pub methods: *const i32,
+    /// Their efforts: MORULA_EFFORT_*, as many as methods; NULL: that of the clump options for all.
+    pub efforts: *const i32,
+    /// Number of methods.
+    pub method_count: usize,
+    /// Seconds that each clump may take; 0: as long as it takes.
+    pub deadlines: *const f64,
+    /// Number of deadlines.
+    pub deadline_count: usize,
+}
+
+/// What one price list of a sweep is of.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct morula_swept {
+    /// sizeof(morula_swept), set by the caller in the first of an array.
+    pub struct_size: usize,
+    /// The resolution, as it stood in the options.
+    pub resolution: f64,
+    /// Cells along x, y, z, padding included; 0 where the solid could not be made.
+    pub cells: [u64; 3],
+    /// Seconds that the solid took, once for all lists of one resolution.
+    pub solid_seconds: f64,
+    /// Seconds that each clump was given; 0: as long as it takes.
+    pub deadline: f64,
+    /// Lines of the list; 0 where there is none.
+    pub lines: u64,
+    /// One of MORULA_METHOD_*.
+    pub method: i32,
+    /// One of MORULA_EFFORT_*.
+    pub effort: i32,
+    /// MORULA_STATUS_OK, or why there is no list.
+    pub status: i32,
+    /// 1: cancel or the sweep's deadline ended the list before its last number of spheres.
+    pub cut: i32,
+}

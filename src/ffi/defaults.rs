@@ -234,6 +234,19 @@ versioned!(
         reserved: 0,
     }
 );
+versioned!(
+    morula_sweep_options, 64;
+    morula_sweep_options {
+        struct_size: size_of::<Self>(),
+        resolutions: std::ptr::null(),
+        resolution_count: 0,
+        methods: std::ptr::null(),
+        efforts: std::ptr::null(),
+        method_count: 0,
+        deadlines: std::ptr::null(),
+        deadline_count: 0,
+    }
+);
 /// All-zero structs: every field of these is a number.
 macro_rules! filled {
     ($($name:ident $first:expr),*) => {$(
@@ -243,7 +256,7 @@ macro_rules! filled {
 filled!(
     morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 64,
     morula_counters 112, morula_masses 80, morula_timestep 56,
-    morula_fragment 368, morula_break_totals 48, morula_cost_point 168, morula_cache_counts 48
+    morula_fragment 368, morula_break_totals 48, morula_cost_point 168, morula_swept 80, morula_cache_counts 48
 );
 
 #[cfg(all(test, target_pointer_width = "64"))]
@@ -279,5 +292,7 @@ mod tests {
         listed::<morula_cost_options>();
         listed::<morula_cost_point>();
         listed::<morula_cost_bounds>();
+        listed::<morula_sweep_options>();
+        listed::<morula_swept>();
     }
 }

@@ -42,6 +42,7 @@ mod silhouettes;
 mod solid;
 mod status;
 mod structs;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod voxels;
@@ -70,4 +71,5 @@ pub use silhouettes::*;
 pub use solid::*;
 pub use status::*;
 pub use structs::*;
+pub use sweep::*;
 pub use voxels::*;

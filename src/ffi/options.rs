@@ -151,6 +151,8 @@ pub(super) fn size_of_struct(which: i32) -> usize {
         MORULA_STRUCT_COST_OPTIONS => size_of::<morula_cost_options>(),
         MORULA_STRUCT_COST_POINT => size_of::<morula_cost_point>(),
         MORULA_STRUCT_COST_BOUNDS => size_of::<morula_cost_bounds>(),
+        MORULA_STRUCT_SWEEP_OPTIONS => size_of::<morula_sweep_options>(),
+        MORULA_STRUCT_SWEPT => size_of::<morula_swept>(),
         _ => 0,
     }
 }
