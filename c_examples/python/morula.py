@@ -43,7 +43,7 @@ LOG: INFO=0 WARNING=1
 STRUCT: IMPORT_OPTIONS=1 FILE_OPTIONS=2 SOLID_OPTIONS=3 CLUMP_OPTIONS=4 REPORT=5 MOMENTS=6
   OVERLAP=7 SURFACE=8 COUNTERS=9 MASS_OPTIONS=10 MASSES=11 CONTACT_OPTIONS=12 TIMESTEP=13
   EXPORT_OPTIONS=14 BREAK_OPTIONS=15 HELD=16 FRAGMENT=17 BREAK_TOTALS=18 CACHE_COUNTS=19
-  COST_OPTIONS=20 COST_POINT=21 COST_BOUNDS=22
+  COST_OPTIONS=20 COST_POINT=21 COST_BOUNDS=22 SWEEP_OPTIONS=23 SWEPT=24
 BODIES: REFUSE=0 LARGEST=1 ALL=2
 FORMAT: AUTO=0 STL=1 OBJ=2 PLY=3 OFF=4 NPY=5 TIFF=6 RAW=7
 MEANING: AUTO=0 OTSU=1 ABOVE=2 LABEL=3
@@ -105,6 +105,10 @@ cost_bounds: Q spheres, d mismatch, d coverage, d surface, d seconds, d step_cos
 cost_point: Q asked, Q spheres, d mismatch, d coverage, d overshoot, d surface, d hausdorff, d
   protrusion, d roughness, d union_inertia, d inertia, d seconds, d seconds_so_far, d time_step,
   d rayleigh, d step_factor, d least_radius, d step_cost, d time_cost, i masses, i stopped
+sweep_options: p resolutions, z resolution_count, p methods, p efforts, z method_count, p
+  deadlines, z deadline_count
+swept: d resolution, Q cells[3], d solid_seconds, d deadline, Q lines, i method, i effort, i
+  status, i cut
 mass_options: d density, d m_min, d m_max, i target, i objective, i infeasible, i threads, p
   progress, p user
 timestep: d clump, d effective_mass, d stiffness, d rayleigh, d overlap, I sphere, I reserved
@@ -193,6 +197,12 @@ i cost_copy pzp
 i cost_clump pzp
 i cost_choose pppzpp
 v cost_free p
+i sweep_options_init pz
+i sweep_from_shape pppppp
+i sweep_count pp
+i sweep_copy pzp
+i sweep_curve pzp
+v sweep_free p
 i mass_options_init pz
 i body_from_clump ppp
 i body_from_spheres pzppp
@@ -274,7 +284,10 @@ _ARRAYS = {"plane_tolerances": (np.float64, 1, "plane_tolerance_count"),
            "half_spaces": (np.float64, 4, "half_space_count"),
            "symmetry_planes": (np.float64, 3, "symmetry_plane_count"),
            "points": (np.float64, 3, "point_count"), "weights": (np.float64, 1, "point_count"),
-           "walls": (np.float64, 4, "wall_count"), "counts": (np.uint64, 1, "count")}
+           "walls": (np.float64, 4, "wall_count"), "counts": (np.uint64, 1, "count"),
+           "resolutions": (np.float64, 1, "resolution_count"),
+           "methods": (np.int32, 1, "method_count"), "efforts": (np.int32, 1, "method_count"),
+           "deadlines": (np.float64, 1, "deadline_count")}
 
 _ids = {}  # group -> {name: number}
 
@@ -442,6 +455,8 @@ class _Options:
             array = self._keep(_array(value, dtype, (None, each) if each > 1 else (None,), name))
             if name == "weights" and len(array) != self.struct.point_count:
                 raise ValueError("one weight for each point, after the points")
+            if name == "efforts" and len(array) != self.struct.method_count:
+                raise ValueError("one effort for each method, after the methods")
             setattr(self.struct, name, array.ctypes.data)
             setattr(self.struct, count, len(array))
         elif kind is ctypes.c_char_p:
@@ -1126,6 +1141,43 @@ class Cost(_Handle):
         bounds, index = _Options("cost_bounds", bounds), ctypes.c_size_t()
         why = self._text("cost_choose", bounds, ctypes.byref(index))
         return index.value, why
+
+
+class Sweep(_Handle):
+    """Price lists of one shape: for each of `resolutions` (numbers of cells, as `solid` says, a dict
+    of morula_solid_options), in it for each of `methods`, of each for each of `deadlines` in seconds.
+    `efforts` are as many as methods; without them all have that of the keywords, which are those of
+    morula_clump_options. `cost` as in Cost."""
+
+    _noun = "sweep"
+
+    def __init__(self, shape, resolutions, methods, efforts=None, deadlines=(0.0,), solid=None,
+                 cost=None, **options):
+        numbers = lambda group, names: [constant(group, name) for name in names]
+        over = {"resolutions": resolutions, "methods": numbers("METHOD", methods),
+                "deadlines": deadlines}
+        if efforts is not None:
+            over["efforts"] = numbers("EFFORT", efforts)
+        over = _Options("sweep_options", over)
+        grid = _Options("solid_options", solid or {})
+        cost = _Options("cost_options", cost or {})
+        options = _Options("clump_options", options)
+        self._make("sweep_from_shape", options, shape, grid, options, cost, over)
+
+    def __len__(self):
+        return self._number("sweep_count", ctypes.c_size_t)
+
+    def lists(self):
+        """What each list is of, and the status of one that could not be made."""
+        struct = _structs["swept"]
+        out = (struct * len(self))()
+        out[0].struct_size = ctypes.sizeof(struct)
+        _call("sweep_copy", self, len(out), out)
+        return [Record(one) for one in out]
+
+    def curve(self, index):
+        """A list, which lives on without the sweep; raises why it could not be made."""
+        return Cost.__new__(Cost)._make("sweep_curve", None, self, index)
 
 
 def _list_labels(count, copy):

@@ -332,6 +332,23 @@ class Masses(unittest.TestCase):
             with cost.clump(1) as clump:
                 self.assertEqual(len(clump), 4)
 
+    def test_sweep(self):
+        with stone() as shape, morula.Sweep(
+                shape, [16, 20], ["best", "mss"], ["draft", "normal"],
+                cost={"counts": [2, 4], "surface": 0}) as sweep:
+            lists = sweep.lists()
+            self.assertEqual([(one.resolution, one.method) for one in lists],
+                             [(n, m) for n in (16, 20) for m in (morula.METHOD_BEST, morula.METHOD_MSS)])
+            self.assertTrue(all(one.status == 0 and one.lines == 2 for one in lists))
+            curve = sweep.curve(2)
+            with self.assertRaises(morula.Error) as error:
+                sweep.curve(4)
+            self.assertEqual(error.exception.status, morula.STATUS_INDEX_OUT_OF_RANGE)
+        with curve:
+            self.assertEqual([p.asked for p in curve.points()], [2, 4])
+        with stone() as shape, self.assertRaises(ValueError):
+            morula.Sweep(shape, [16], ["best", "mss"], ["draft"])
+
     def test_orientations(self):
         q = morula.random_orientations(3, 10)
         np.testing.assert_allclose((q ** 2).sum(axis=1), 1)
