@@ -3,7 +3,7 @@
 # that the C header is current), and CTest against the installed tree.
 #   sh scripts/test.sh          the daily run, at most 12 minutes on 2 cores
 #   sh scripts/test.sh --full   with the long cases: bad input at the default options, and
-#                               CTest with debug assertions and with the sanitizers
+#                               CTest under valgrind, with debug assertions and with the sanitizers
 #   sh scripts/test.sh --all-codes  with every DEM code that reads our files and can be installed (LAMMPS
 #                               always is; LIGGGHTS and YADE are large)
 # Tests over third-party data run when MORULA_DATA names their folder.
@@ -117,6 +117,8 @@ have_pkg_config || skip "pkg-config cases of CTest" "pkg-config is not installed
 have mpicxx || skip "MPI cases of CTest" "mpicxx is not installed (package libopenmpi-dev)"
 python_with_numpy || { install python3-numpy && python_with_numpy; } ||
     skip "Python case of CTest" "no python3 with numpy (MORULA_PYTHON names one)"
+have valgrind || install valgrind || true
+have valgrind || skip "valgrind cases of CTest" "valgrind is not installed"
 tree=build/test
 step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release \
     -DMORULA_CARGO_TARGET_DIR="$(pwd)/target"
@@ -124,6 +126,8 @@ step "cmake build" cmake --build "$tree"
 step "ctest" ctest --test-dir "$tree" --output-on-failure
 
 if [ "$full" = yes ]; then
+    have valgrind && step "configure valgrind" cmake -S . -B "$tree" -DMORULA_VALGRIND=ON &&
+        step "ctest valgrind" ctest --test-dir "$tree" -L valgrind --output-on-failure
     for preset in debug asan; do
         step "configure $preset" cmake --preset "$preset"
         step "build $preset" cmake --build --preset "$preset"
