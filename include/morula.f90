@@ -3,8 +3,9 @@
 ! Compile this file with your own compiler (CMake: link morula::fortran). It has
 ! two layers. The first is one bind(c) interface for each function of morula.h,
 ! with the same names, and its structs as bind(c) types. The second are the types
-! morula_shape_t, morula_solid_t, morula_clump_t, morula_body_t, morula_cost_t,
-! morula_parent_t, morula_cache_t and morula_fragments_t, which hold a handle:
+! morula_shape_t, morula_solid_t, morula_clump_t, morula_body_t, morula_files_t,
+! morula_cost_t, morula_parent_t, morula_cache_t and morula_fragments_t, which hold
+! a handle:
 !
 !   type(morula_shape_t) :: shape
 !   type(morula_clump_t) :: clump
@@ -20,7 +21,8 @@
 ! free the handle twice. The optional last argument `status` of each procedure
 ! receives MORULA_STATUS_*; without it a failure prints its sentence and stops.
 !
-! Triangle indices are counted from 1 here, notes and plane tolerances too.
+! Triangle indices are counted from 1 here, notes and plane tolerances too; in the
+! first layer all counting is C's. What may be NULL in C is a type(c_ptr) there.
 ! C's unsigned integers are Fortran's signed ones of the same size.
 module morula
   use, intrinsic :: iso_c_binding
@@ -664,7 +666,7 @@ module morula
       integer(c_size_t), value :: vertex_count
       integer(c_int32_t), intent(in) :: triangles(*)
       integer(c_size_t), value :: triangle_count
-      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_mesh
@@ -690,7 +692,7 @@ module morula
       integer(c_size_t), value :: index
       integer(c_size_t), value :: capacity
       type(c_ptr), value :: text
-      integer(c_size_t), intent(inout), optional :: length
+      type(c_ptr), value :: length
       integer(c_int32_t) :: r
     end function morula_shape_copy_note
     function morula_shape_moments(shape, density, moments) bind(c) result(r)
@@ -715,8 +717,8 @@ module morula
     function morula_shape_from_file(path, import_options, file_options, shape) bind(c) result(r)
       import
       character(kind=c_char), intent(in) :: path(*)
-      type(morula_import_options), intent(in), optional :: import_options
-      type(morula_file_options), intent(in), optional :: file_options
+      type(c_ptr), value :: import_options
+      type(c_ptr), value :: file_options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_file
@@ -725,8 +727,8 @@ module morula
       integer(c_int8_t), intent(in) :: bytes(*)
       integer(c_size_t), value :: count
       character(kind=c_char), intent(in) :: name(*)
-      type(morula_import_options), intent(in), optional :: import_options
-      type(morula_file_options), intent(in), optional :: file_options
+      type(c_ptr), value :: import_options
+      type(c_ptr), value :: file_options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_bytes
@@ -734,13 +736,13 @@ module morula
         boxes, touches_border, count) bind(c) result(r)
       import
       character(kind=c_char), intent(in) :: path(*)
-      type(morula_import_options), intent(in), optional :: import_options
-      type(morula_file_options), intent(in), optional :: file_options
+      type(c_ptr), value :: import_options
+      type(c_ptr), value :: file_options
       integer(c_size_t), value :: capacity
-      integer(c_int32_t), intent(inout), optional :: ids(*)
-      integer(c_int64_t), intent(inout), optional :: cells(*)
-      integer(c_int64_t), intent(inout), optional :: boxes(*)
-      integer(c_int32_t), intent(inout), optional :: touches_border(*)
+      type(c_ptr), value :: ids
+      type(c_ptr), value :: cells
+      type(c_ptr), value :: boxes
+      type(c_ptr), value :: touches_border
       integer(c_size_t), intent(inout) :: count
       integer(c_int32_t) :: r
     end function morula_labels_from_file
@@ -750,13 +752,13 @@ module morula
       integer(c_int8_t), intent(in) :: bytes(*)
       integer(c_size_t), value :: byte_count
       character(kind=c_char), intent(in) :: name(*)
-      type(morula_import_options), intent(in), optional :: import_options
-      type(morula_file_options), intent(in), optional :: file_options
+      type(c_ptr), value :: import_options
+      type(c_ptr), value :: file_options
       integer(c_size_t), value :: capacity
-      integer(c_int32_t), intent(inout), optional :: ids(*)
-      integer(c_int64_t), intent(inout), optional :: cells(*)
-      integer(c_int64_t), intent(inout), optional :: boxes(*)
-      integer(c_int32_t), intent(inout), optional :: touches_border(*)
+      type(c_ptr), value :: ids
+      type(c_ptr), value :: cells
+      type(c_ptr), value :: boxes
+      type(c_ptr), value :: touches_border
       integer(c_size_t), intent(inout) :: count
       integer(c_int32_t) :: r
     end function morula_labels_from_bytes
@@ -764,9 +766,9 @@ module morula
       import
       integer(c_int8_t), intent(in) :: mask(*)
       integer(c_size_t), intent(in) :: dims(*)
-      real(c_double), intent(in), optional :: spacing(*)
-      real(c_double), intent(in), optional :: origin(*)
-      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), value :: spacing
+      type(c_ptr), value :: origin
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_mask
@@ -780,7 +782,7 @@ module morula
       real(c_double), intent(in) :: cameras(*)
       integer(c_size_t), value :: cells
       integer(c_int32_t), value :: carve
-      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_silhouettes
@@ -789,10 +791,10 @@ module morula
       import
       integer(c_int8_t), intent(in) :: values(*)
       integer(c_size_t), intent(in) :: dims(*)
-      real(c_double), intent(in), optional :: spacing(*)
-      real(c_double), intent(in), optional :: origin(*)
-      real(c_double), intent(in), optional :: threshold
-      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), value :: spacing
+      type(c_ptr), value :: origin
+      type(c_ptr), value :: threshold
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_grey_u8
@@ -801,10 +803,10 @@ module morula
       import
       integer(c_int16_t), intent(in) :: values(*)
       integer(c_size_t), intent(in) :: dims(*)
-      real(c_double), intent(in), optional :: spacing(*)
-      real(c_double), intent(in), optional :: origin(*)
-      real(c_double), intent(in), optional :: threshold
-      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), value :: spacing
+      type(c_ptr), value :: origin
+      type(c_ptr), value :: threshold
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_grey_u16
@@ -813,10 +815,10 @@ module morula
       import
       real(c_float), intent(in) :: values(*)
       integer(c_size_t), intent(in) :: dims(*)
-      real(c_double), intent(in), optional :: spacing(*)
-      real(c_double), intent(in), optional :: origin(*)
-      real(c_double), intent(in), optional :: threshold
-      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), value :: spacing
+      type(c_ptr), value :: origin
+      type(c_ptr), value :: threshold
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_grey_f32
@@ -825,10 +827,10 @@ module morula
       import
       integer(c_int32_t), intent(in) :: labels(*)
       integer(c_size_t), intent(in) :: dims(*)
-      real(c_double), intent(in), optional :: spacing(*)
-      real(c_double), intent(in), optional :: origin(*)
+      type(c_ptr), value :: spacing
+      type(c_ptr), value :: origin
       integer(c_int32_t), value :: label
-      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_label
@@ -845,10 +847,10 @@ module morula
       integer(c_int32_t), intent(in) :: labels(*)
       integer(c_size_t), intent(in) :: dims(*)
       integer(c_size_t), value :: capacity
-      integer(c_int32_t), intent(inout), optional :: ids(*)
-      integer(c_int64_t), intent(inout), optional :: cells(*)
-      integer(c_int64_t), intent(inout), optional :: boxes(*)
-      integer(c_int32_t), intent(inout), optional :: touches_border(*)
+      type(c_ptr), value :: ids
+      type(c_ptr), value :: cells
+      type(c_ptr), value :: boxes
+      type(c_ptr), value :: touches_border
       integer(c_int32_t) :: r
     end function morula_labels_copy
     function morula_primitive_name(index) bind(c) result(r)
@@ -869,8 +871,8 @@ module morula
       integer(c_size_t), value :: index
       integer(c_size_t), value :: capacity
       type(c_ptr), value :: key
-      integer(c_size_t), intent(inout), optional :: length
-      real(c_double), intent(inout), optional :: value
+      type(c_ptr), value :: length
+      type(c_ptr), value :: value
       integer(c_int32_t) :: r
     end function morula_primitive_copy_parameter
     function morula_shape_from_primitive(name, keys, values, count, segments, seed, options, &
@@ -882,7 +884,7 @@ module morula
       integer(c_size_t), value :: count
       integer(c_int32_t), value :: segments
       integer(c_int64_t), value :: seed
-      type(morula_import_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: shape
       integer(c_int32_t) :: r
     end function morula_shape_from_primitive
@@ -895,7 +897,7 @@ module morula
     function morula_solid_from_shape(shape, options, solid) bind(c) result(r)
       import
       type(c_ptr), value :: shape
-      type(morula_solid_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: solid
       integer(c_int32_t) :: r
     end function morula_solid_from_shape
@@ -906,9 +908,9 @@ module morula
     function morula_solid_grid(solid, dims, spacing, origin) bind(c) result(r)
       import
       type(c_ptr), value :: solid
-      integer(c_size_t), intent(inout), optional :: dims(*)
-      real(c_double), intent(inout), optional :: spacing(*)
-      real(c_double), intent(inout), optional :: origin(*)
+      type(c_ptr), value :: dims
+      type(c_ptr), value :: spacing
+      type(c_ptr), value :: origin
       integer(c_int32_t) :: r
     end function morula_solid_grid
     function morula_solid_distance(solid, count, points, distances) bind(c) result(r)
@@ -931,7 +933,7 @@ module morula
       integer(c_size_t), value :: index
       integer(c_size_t), value :: capacity
       type(c_ptr), value :: text
-      integer(c_size_t), intent(inout), optional :: length
+      type(c_ptr), value :: length
       integer(c_int32_t) :: r
     end function morula_solid_copy_note
     function morula_solid_moments(solid, density, moments) bind(c) result(r)
@@ -956,22 +958,22 @@ module morula
     function morula_clump_from_shape(shape, solid_options, options, clump) bind(c) result(r)
       import
       type(c_ptr), value :: shape
-      type(morula_solid_options), intent(in), optional :: solid_options
-      type(morula_clump_options), intent(in), optional :: options
+      type(c_ptr), value :: solid_options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: clump
       integer(c_int32_t) :: r
     end function morula_clump_from_shape
     function morula_clump_from_solid(solid, options, clump) bind(c) result(r)
       import
       type(c_ptr), value :: solid
-      type(morula_clump_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: clump
       integer(c_int32_t) :: r
     end function morula_clump_from_solid
     function morula_clumps_from_solid(solid, options, spheres, count, clumps) bind(c) result(r)
       import
       type(c_ptr), value :: solid
-      type(morula_clump_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       integer(c_int64_t), intent(in) :: spheres(*)
       integer(c_size_t), value :: count
       type(c_ptr), intent(inout) :: clumps(*)
@@ -982,10 +984,10 @@ module morula
       import
       type(c_ptr), intent(in) :: shapes(*)
       integer(c_size_t), value :: count
-      type(morula_solid_options), intent(in), optional :: solid_options
-      type(morula_clump_options), intent(in), optional :: options
+      type(c_ptr), value :: solid_options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: clumps(*)
-      integer(c_int32_t), intent(inout), optional :: statuses(*)
+      type(c_ptr), value :: statuses
       integer(c_int32_t) :: r
     end function morula_clumps_from_shapes
     function morula_clumps_from_labels(labels, dims, spacing, origin, wanted, count, &
@@ -993,15 +995,15 @@ module morula
       import
       integer(c_int32_t), intent(in) :: labels(*)
       integer(c_size_t), intent(in) :: dims(*)
-      real(c_double), intent(in), optional :: spacing(*)
-      real(c_double), intent(in), optional :: origin(*)
+      type(c_ptr), value :: spacing
+      type(c_ptr), value :: origin
       integer(c_int32_t), intent(in) :: wanted(*)
       integer(c_size_t), value :: count
-      type(morula_import_options), intent(in), optional :: import_options
-      type(morula_solid_options), intent(in), optional :: solid_options
-      type(morula_clump_options), intent(in), optional :: options
+      type(c_ptr), value :: import_options
+      type(c_ptr), value :: solid_options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: clumps(*)
-      integer(c_int32_t), intent(inout), optional :: statuses(*)
+      type(c_ptr), value :: statuses
       integer(c_int32_t) :: r
     end function morula_clumps_from_labels
     subroutine morula_clump_free(clump) bind(c)
@@ -1037,7 +1039,7 @@ module morula
       type(c_ptr), value :: clump
       integer(c_size_t), value :: capacity
       type(c_ptr), value :: text
-      integer(c_size_t), intent(inout), optional :: length
+      type(c_ptr), value :: length
       integer(c_int32_t) :: r
     end function morula_clump_copy_note
     function morula_clump_moments(clump, density, moments) bind(c) result(r)
@@ -1088,7 +1090,7 @@ module morula
     function morula_body_from_clump(clump, options, body) bind(c) result(r)
       import
       type(c_ptr), value :: clump
-      type(morula_mass_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: body
       integer(c_int32_t) :: r
     end function morula_body_from_clump
@@ -1097,7 +1099,7 @@ module morula
       real(c_double), intent(in) :: xyzr(4, *)
       integer(c_size_t), value :: count
       type(c_ptr), value :: solid
-      type(morula_mass_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: body
       integer(c_int32_t) :: r
     end function morula_body_from_spheres
@@ -1106,8 +1108,8 @@ module morula
       import
       type(c_ptr), value :: body
       real(c_double), value :: scale
-      real(c_double), intent(in), optional :: position(*)
-      real(c_double), intent(in), optional :: quaternion(*)
+      type(c_ptr), value :: position
+      type(c_ptr), value :: quaternion
       real(c_double), value :: density
       type(c_ptr), intent(inout) :: placed
       integer(c_int32_t) :: r
@@ -1116,10 +1118,10 @@ module morula
         placed) bind(c) result(r)
       import
       type(c_ptr), value :: clump
-      type(morula_mass_options), intent(in), optional :: masses
+      type(c_ptr), value :: masses
       real(c_double), value :: scale
-      real(c_double), intent(in), optional :: position(*)
-      real(c_double), intent(in), optional :: quaternion(*)
+      type(c_ptr), value :: position
+      type(c_ptr), value :: quaternion
       type(c_ptr), intent(inout) :: placed
       integer(c_int32_t) :: r
     end function morula_clump_transform
@@ -1150,7 +1152,7 @@ module morula
     function morula_clump_timestep(clump, masses, options, timestep) bind(c) result(r)
       import
       type(c_ptr), value :: clump
-      type(morula_mass_options), intent(in), optional :: masses
+      type(c_ptr), value :: masses
       type(morula_contact_options), intent(in) :: options
       type(morula_timestep), intent(inout) :: timestep
       integer(c_int32_t) :: r
@@ -1218,16 +1220,16 @@ module morula
       import
       type(c_ptr), value :: body
       integer(c_int32_t), value :: format
-      type(morula_export_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: r
     end function morula_body_write
     function morula_clump_write(clump, masses, format, options, path) bind(c) result(r)
       import
       type(c_ptr), value :: clump
-      type(morula_mass_options), intent(in), optional :: masses
+      type(c_ptr), value :: masses
       integer(c_int32_t), value :: format
-      type(morula_export_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       character(kind=c_char), intent(in) :: path(*)
       integer(c_int32_t) :: r
     end function morula_clump_write
@@ -1235,7 +1237,7 @@ module morula
       import
       type(c_ptr), value :: body
       integer(c_int32_t), value :: format
-      type(morula_export_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: files
       integer(c_int32_t) :: r
     end function morula_body_export
@@ -1251,7 +1253,7 @@ module morula
       integer(c_size_t), value :: index
       integer(c_size_t), value :: capacity
       type(c_ptr), value :: text
-      integer(c_size_t), intent(inout), optional :: length
+      type(c_ptr), value :: length
       integer(c_int32_t) :: r
     end function morula_files_copy_name
     function morula_files_size(files, index, size) bind(c) result(r)
@@ -1273,8 +1275,8 @@ module morula
       import
       type(c_ptr), value :: shape
       integer(c_size_t), value :: capacity
-      integer(c_int8_t), intent(inout), optional :: bytes(*)
-      integer(c_size_t), intent(out), optional :: size
+      type(c_ptr), value :: bytes
+      type(c_ptr), value :: size
       integer(c_int32_t) :: r
     end function morula_shape_serialize
     function morula_shape_deserialize(bytes, size, shape) bind(c) result(r)
@@ -1288,8 +1290,8 @@ module morula
       import
       type(c_ptr), value :: clump
       integer(c_size_t), value :: capacity
-      integer(c_int8_t), intent(inout), optional :: bytes(*)
-      integer(c_size_t), intent(out), optional :: size
+      type(c_ptr), value :: bytes
+      type(c_ptr), value :: size
       integer(c_int32_t) :: r
     end function morula_clump_serialize
     function morula_clump_deserialize(bytes, size, clump) bind(c) result(r)
@@ -1304,8 +1306,8 @@ module morula
       type(c_ptr), value :: fragments
       integer(c_size_t), value :: index
       integer(c_size_t), value :: capacity
-      integer(c_int8_t), intent(inout), optional :: bytes(*)
-      integer(c_size_t), intent(out), optional :: size
+      type(c_ptr), value :: bytes
+      type(c_ptr), value :: size
       integer(c_int32_t) :: r
     end function morula_fragments_serialize
     function morula_fragments_deserialize(parent, bytes, size, held, fragments) bind(c) result(r)
@@ -1358,7 +1360,7 @@ module morula
       import
       type(c_ptr), value :: cache
       type(c_ptr), value :: shape
-      type(morula_solid_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       real(c_double), intent(in) :: xyzr(4, *)
       integer(c_size_t), value :: count
       type(c_ptr), intent(inout) :: parent
@@ -1391,10 +1393,10 @@ module morula
       type(c_ptr), value :: parent
       real(c_double), value :: density
       real(c_double), value :: scale
-      real(c_double), intent(in), optional :: position(*)
-      real(c_double), intent(in), optional :: quaternion(*)
-      real(c_double), intent(in), optional :: velocity(*)
-      real(c_double), intent(in), optional :: angular_velocity(*)
+      type(c_ptr), value :: position
+      type(c_ptr), value :: quaternion
+      type(c_ptr), value :: velocity
+      type(c_ptr), value :: angular_velocity
       type(morula_held), intent(inout) :: held
       integer(c_int32_t) :: r
     end function morula_parent_held
@@ -1403,10 +1405,10 @@ module morula
       import
       type(c_ptr), value :: fragments
       integer(c_size_t), value :: index
-      real(c_double), intent(in), optional :: position(*)
-      real(c_double), intent(in), optional :: quaternion(*)
-      real(c_double), intent(in), optional :: velocity(*)
-      real(c_double), intent(in), optional :: angular_velocity(*)
+      type(c_ptr), value :: position
+      type(c_ptr), value :: quaternion
+      type(c_ptr), value :: velocity
+      type(c_ptr), value :: angular_velocity
       type(morula_held), intent(inout) :: held
       integer(c_int32_t) :: r
     end function morula_fragments_held
@@ -1425,8 +1427,8 @@ module morula
     function morula_cost_curve(solid, options, cost, curve) bind(c) result(r)
       import
       type(c_ptr), value :: solid
-      type(morula_clump_options), intent(in), optional :: options
-      type(morula_cost_options), intent(in), optional :: cost
+      type(c_ptr), value :: options
+      type(c_ptr), value :: cost
       type(c_ptr), intent(inout) :: curve
       integer(c_int32_t) :: r
     end function morula_cost_curve
@@ -1459,11 +1461,11 @@ module morula
     function morula_cost_choose(curve, bounds, index, capacity, text, length) bind(c) result(r)
       import
       type(c_ptr), value :: curve
-      type(morula_cost_bounds), intent(in), optional :: bounds
+      type(c_ptr), value :: bounds
       integer(c_size_t), intent(inout) :: index
       integer(c_size_t), value :: capacity
       type(c_ptr), value :: text
-      integer(c_size_t), intent(inout), optional :: length
+      type(c_ptr), value :: length
       integer(c_int32_t) :: r
     end function morula_cost_choose
     subroutine morula_cost_free(curve) bind(c)
@@ -1480,9 +1482,9 @@ module morula
         result(r)
       import
       type(c_ptr), value :: shape
-      type(morula_solid_options), intent(in), optional :: solid_options
-      type(morula_clump_options), intent(in), optional :: options
-      type(morula_cost_options), intent(in), optional :: cost
+      type(c_ptr), value :: solid_options
+      type(c_ptr), value :: options
+      type(c_ptr), value :: cost
       type(morula_sweep_options), intent(in) :: what
       type(c_ptr), intent(inout) :: sweep
       integer(c_int32_t) :: r
@@ -1523,7 +1525,7 @@ module morula
       type(c_ptr), value :: from
       integer(c_size_t), value :: index
       type(morula_held), intent(in) :: held
-      type(morula_break_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: fragments
       integer(c_int32_t) :: r
     end function morula_parent_break
@@ -1531,13 +1533,13 @@ module morula
         statuses) bind(c) result(r)
       import
       type(c_ptr), intent(in) :: parents(*)
-      type(c_ptr), intent(in), optional :: from(*)
-      integer(c_size_t), intent(in), optional :: indices(*)
+      type(c_ptr), value :: from
+      type(c_ptr), value :: indices
       type(morula_held), intent(in) :: held(*)
-      type(morula_break_options), intent(in), optional :: options(*)
+      type(c_ptr), value :: options
       integer(c_size_t), value :: count
       type(c_ptr), intent(inout) :: fragments(*)
-      integer(c_int32_t), intent(inout), optional :: statuses(*)
+      type(c_ptr), value :: statuses
       integer(c_int32_t) :: r
     end function morula_parents_break
     function morula_fragments_from_labels(labels, dims, spacing, origin, solid_options, xyzr, &
@@ -1545,13 +1547,13 @@ module morula
       import
       integer(c_int32_t), intent(in) :: labels(*)
       integer(c_size_t), intent(in) :: dims(*)
-      real(c_double), intent(in), optional :: spacing(*)
-      real(c_double), intent(in), optional :: origin(*)
-      type(morula_solid_options), intent(in), optional :: solid_options
+      type(c_ptr), value :: spacing
+      type(c_ptr), value :: origin
+      type(c_ptr), value :: solid_options
       real(c_double), intent(in) :: xyzr(4, *)
       integer(c_size_t), value :: count
       type(morula_held), intent(in) :: held
-      type(morula_break_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: fragments
       integer(c_int32_t) :: r
     end function morula_fragments_from_labels
@@ -1561,7 +1563,7 @@ module morula
       real(c_double), intent(in) :: xyzr(4, *)
       integer(c_size_t), value :: count
       type(morula_held), intent(in) :: held
-      type(morula_break_options), intent(in), optional :: options
+      type(c_ptr), value :: options
       type(c_ptr), intent(inout) :: fragments
       integer(c_int32_t) :: r
     end function morula_reclump_shape
@@ -1673,7 +1675,7 @@ module morula
       integer(c_size_t), value :: index
       integer(c_size_t), value :: capacity
       type(c_ptr), value :: text
-      integer(c_size_t), intent(inout), optional :: length
+      type(c_ptr), value :: length
       integer(c_int32_t) :: r
     end function morula_fragments_copy_note
   end interface
@@ -1772,6 +1774,10 @@ module morula
     procedure :: copy_exposed_areas => clump_copy_exposed_areas
     procedure :: copy_plane_contacts => clump_copy_plane_contacts
     procedure :: counters => clump_counters
+    !> Weighed and placed, its time step, or its file, in one call: for one particle, not for many.
+    procedure :: transform => clump_transform
+    procedure :: timestep => clump_timestep
+    procedure :: write => clump_write
     !> As bytes, for another rank or a restart file, and from such bytes.
     procedure :: serialize => clump_serialize
     procedure :: deserialize => clump_deserialize
@@ -1813,6 +1819,25 @@ module morula
     generic :: assignment(=) => body_assign
     final :: body_final
   end type morula_body_t
+
+  !> The files of a format in memory.
+  type, public :: morula_files_t
+    private
+    type(c_ptr) :: handle = c_null_ptr
+  contains
+    !> From a body, in the format MORULA_EXPORT_*.
+    procedure :: create => files_create
+    procedure :: count => files_count
+    !> What the name of file `index`, counted from 1, adds to the path, and its bytes.
+    procedure :: name => files_name
+    procedure :: bytes => files_bytes
+    procedure :: destroy => files_destroy
+    !> The C handle; it stays this variable's.
+    procedure :: c_handle => files_handle
+    procedure, private :: files_assign
+    generic :: assignment(=) => files_assign
+    final :: files_final
+  end type morula_files_t
 
   !> A particle that may break: its solid and the spheres of its clump.
   type, public :: morula_parent_t
@@ -1961,6 +1986,19 @@ module morula
   public :: morula_make_clumps, morula_break_all
   public :: morula_init, morula_text, morula_message, morula_name_of_status
   public :: morula_name_of_primitive, morula_name_of_stop, morula_labels
+  public :: morula_name_of_masses, morula_library_version, morula_parameter_count
+  public :: morula_parameter, morula_orientations, morula_log_to, morula_log_sink
+
+  abstract interface
+    !> Receives one line of log; level is one of MORULA_LOG_*.
+    subroutine morula_log_sink(level, text)
+      import
+      integer(c_int32_t), intent(in) :: level
+      character(*), intent(in) :: text
+    end subroutine morula_log_sink
+  end interface
+
+  procedure(morula_log_sink), pointer :: the_sink => null()
 
 contains
 
@@ -2010,6 +2048,86 @@ contains
     character(:), allocatable :: text
     text = morula_text(morula_primitive_name(int(index - 1, c_size_t)))
   end function morula_name_of_primitive
+
+  !> The word for a MORULA_MASSES_* number.
+  function morula_name_of_masses(status) result(text)
+    integer(c_int32_t), intent(in) :: status
+    character(:), allocatable :: text
+    text = morula_text(morula_masses_status_name(status))
+  end function morula_name_of_masses
+
+  !> The version of the library; morula_version() is it as a number.
+  function morula_library_version() result(text)
+    character(:), allocatable :: text
+    text = morula_text(morula_version_string())
+  end function morula_library_version
+
+  !> How many parameters a built-in particle has.
+  subroutine morula_parameter_count(name, count, status)
+    character(*), intent(in) :: name
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_primitive_parameter_count(terminated(name), n), status)
+    count = int(n)
+  end subroutine morula_parameter_count
+
+  !> The key of parameter `index`, counted from 1, of a built-in particle, and its default.
+  subroutine morula_parameter(name, index, key, value, status)
+    character(*), intent(in) :: name
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out) :: key
+    real(c_double), intent(out), target :: value
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: buffer(:)
+    integer(c_size_t), target :: length
+    integer(c_size_t) :: at
+    integer(c_int32_t) :: code
+    at = int(index - 1, c_size_t)
+    length = 0
+    value = 0
+    code = morula_primitive_copy_parameter(terminated(name), at, 0_c_size_t, c_null_ptr, &
+      at_size(length), at_double(value))
+    allocate(buffer(length + 1))
+    buffer = c_null_char
+    if (code == MORULA_STATUS_OK) then
+      code = morula_primitive_copy_parameter(terminated(name), at, length + 1, c_loc(buffer), &
+        c_null_ptr, c_null_ptr)
+    end if
+    key = morula_text(c_loc(buffer))
+    call finish(code, status)
+  end subroutine morula_parameter
+
+  !> Rotations w, x, y, z as quaternions(4, n), drawn evenly from all: the same for the same seed.
+  subroutine morula_orientations(seed, quaternions, status)
+    integer(c_int64_t), intent(in) :: seed
+    real(c_double), intent(inout), contiguous :: quaternions(:, :)
+    integer(c_int32_t), intent(out), optional :: status
+    if (size(quaternions, 1) /= 4) error stop 'morula: quaternions is an array (4, n)'
+    call finish(morula_random_orientations(seed, size(quaternions, 2, c_size_t), quaternions), &
+      status)
+  end subroutine morula_orientations
+
+  !> Sets where the lines of the library's log go, for the whole program; without a sink, nowhere.
+  !> Call it while no other call runs.
+  subroutine morula_log_to(sink, status)
+    procedure(morula_log_sink), optional :: sink
+    integer(c_int32_t), intent(out), optional :: status
+    the_sink => null()
+    if (present(sink)) then
+      the_sink => sink
+      call finish(morula_set_log(c_funloc(log_line), c_null_ptr), status)
+    else
+      call finish(morula_set_log(c_null_funptr, c_null_ptr), status)
+    end if
+  end subroutine morula_log_to
+
+  subroutine log_line(level, text, user) bind(c, name='')
+    integer(c_int32_t), value :: level
+    type(c_ptr), value :: text, user
+    if (associated(the_sink) .and. .not. c_associated(user)) call the_sink(level, morula_text(text))
+  end subroutine log_line
 
   subroutine finish(code, status)
     integer(c_int32_t), intent(in) :: code
@@ -2084,19 +2202,22 @@ contains
     call finish(morula_break_options_init(options, c_sizeof(options)), status)
   end subroutine init_break
 
-  subroutine init_cost(options)
+  subroutine init_cost(options, status)
     type(morula_cost_options), intent(out) :: options
-    call finish(morula_cost_options_init(options, c_sizeof(options)))
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_cost_options_init(options, c_sizeof(options)), status)
   end subroutine init_cost
 
-  subroutine init_cost_bounds(bounds)
+  subroutine init_cost_bounds(bounds, status)
     type(morula_cost_bounds), intent(out) :: bounds
-    call finish(morula_cost_bounds_init(bounds, c_sizeof(bounds)))
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_cost_bounds_init(bounds, c_sizeof(bounds)), status)
   end subroutine init_cost_bounds
 
-  subroutine init_sweep(options)
+  subroutine init_sweep(options, status)
     type(morula_sweep_options), intent(out) :: options
-    call finish(morula_sweep_options_init(options, c_sizeof(options)))
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_sweep_options_init(options, c_sizeof(options)), status)
   end subroutine init_sweep
 
   subroutine init_held(held, status)
@@ -2109,19 +2230,20 @@ contains
   !> (first and last cell, counted from 1), and whether they touch the border.
   subroutine labels_of_array(labels, ids, cells, boxes, touches_border, status)
     integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
-    integer(c_int32_t), allocatable, intent(out) :: ids(:)
+    integer(c_int32_t), allocatable, intent(out), target :: ids(:)
     integer(c_int64_t), allocatable, intent(out), optional :: cells(:), boxes(:, :)
     logical, allocatable, intent(out), optional :: touches_border(:)
     integer(c_int32_t), intent(out), optional :: status
     integer(c_size_t) :: n
     integer(c_int32_t) :: code
-    integer(c_int32_t), allocatable :: touches(:)
-    integer(c_int64_t), allocatable :: numbers(:), corners(:, :)
+    integer(c_int32_t), allocatable, target :: touches(:)
+    integer(c_int64_t), allocatable, target :: numbers(:), corners(:, :)
     n = 0
     code = morula_labels_count(labels, shape(labels, c_size_t), n)
     allocate(ids(n), numbers(n), corners(6, n), touches(n))
     if (code == MORULA_STATUS_OK) then
-      code = morula_labels_copy(labels, shape(labels, c_size_t), n, ids, numbers, corners, touches)
+      code = morula_labels_copy(labels, shape(labels, c_size_t), n, at_int32s(ids), &
+        at_int64s(numbers), at_int64s(corners), at_int32s(touches))
     end if
     if (code == MORULA_STATUS_OK) then
       call hand_over(numbers, corners, touches, cells, boxes, touches_border)
@@ -2132,22 +2254,24 @@ contains
   !> The same of a label volume in a file.
   subroutine labels_of_file(path, ids, cells, boxes, touches_border, options, file_options, status)
     character(*), intent(in) :: path
-    integer(c_int32_t), allocatable, intent(out) :: ids(:)
+    integer(c_int32_t), allocatable, intent(out), target :: ids(:)
     integer(c_int64_t), allocatable, intent(out), optional :: cells(:), boxes(:, :)
     logical, allocatable, intent(out), optional :: touches_border(:)
-    type(morula_import_options), intent(in), optional :: options
-    type(morula_file_options), intent(in), optional :: file_options
+    type(morula_import_options), intent(in), optional, target :: options
+    type(morula_file_options), intent(in), optional, target :: file_options
     integer(c_int32_t), intent(out), optional :: status
     integer(c_size_t) :: n
     integer(c_int32_t) :: code
-    integer(c_int32_t), allocatable :: touches(:)
-    integer(c_int64_t), allocatable :: numbers(:), corners(:, :)
+    integer(c_int32_t), allocatable, target :: touches(:)
+    integer(c_int64_t), allocatable, target :: numbers(:), corners(:, :)
     n = 0
-    code = morula_labels_from_file(terminated(path), options, file_options, n, count=n)
+    code = morula_labels_from_file(terminated(path), at_import(options), at_file(file_options), &
+      n, c_null_ptr, c_null_ptr, c_null_ptr, c_null_ptr, n)
     allocate(ids(n), numbers(n), corners(6, n), touches(n))
     if (code == MORULA_STATUS_OK) then
-      code = morula_labels_from_file(terminated(path), options, file_options, &
-        size(ids, kind=c_size_t), ids, numbers, corners, touches, n)
+      code = morula_labels_from_file(terminated(path), at_import(options), at_file(file_options), &
+        size(ids, kind=c_size_t), at_int32s(ids), at_int64s(numbers), at_int64s(corners), &
+        at_int32s(touches), n)
     end if
     if (code == MORULA_STATUS_OK) then
       ids = ids(:n)
@@ -2161,23 +2285,25 @@ contains
       file_options, status)
     integer(c_int8_t), intent(in), contiguous :: bytes(:)
     character(*), intent(in) :: name
-    integer(c_int32_t), allocatable, intent(out) :: ids(:)
+    integer(c_int32_t), allocatable, intent(out), target :: ids(:)
     integer(c_int64_t), allocatable, intent(out), optional :: cells(:), boxes(:, :)
     logical, allocatable, intent(out), optional :: touches_border(:)
-    type(morula_import_options), intent(in), optional :: options
-    type(morula_file_options), intent(in), optional :: file_options
+    type(morula_import_options), intent(in), optional, target :: options
+    type(morula_file_options), intent(in), optional, target :: file_options
     integer(c_int32_t), intent(out), optional :: status
     integer(c_size_t) :: n
     integer(c_int32_t) :: code
-    integer(c_int32_t), allocatable :: touches(:)
-    integer(c_int64_t), allocatable :: numbers(:), corners(:, :)
+    integer(c_int32_t), allocatable, target :: touches(:)
+    integer(c_int64_t), allocatable, target :: numbers(:), corners(:, :)
     n = 0
-    code = morula_labels_from_bytes(bytes, size(bytes, kind=c_size_t), terminated(name), options, &
-      file_options, n, count=n)
+    code = morula_labels_from_bytes(bytes, size(bytes, kind=c_size_t), terminated(name), &
+      at_import(options), at_file(file_options), n, c_null_ptr, c_null_ptr, c_null_ptr, &
+      c_null_ptr, n)
     allocate(ids(n), numbers(n), corners(6, n), touches(n))
     if (code == MORULA_STATUS_OK) then
-      code = morula_labels_from_bytes(bytes, size(bytes, kind=c_size_t), terminated(name), options, &
-        file_options, n, ids, numbers, corners, touches, n)
+      code = morula_labels_from_bytes(bytes, size(bytes, kind=c_size_t), terminated(name), &
+        at_import(options), at_file(file_options), n, at_int32s(ids), at_int64s(numbers), &
+        at_int64s(corners), at_int32s(touches), n)
     end if
     if (code == MORULA_STATUS_OK) then
       call hand_over(numbers, corners, touches, cells, boxes, touches_border)
@@ -2196,6 +2322,134 @@ contains
     if (present(touches_border)) touches_border = touches /= 0
   end subroutine hand_over
 
+  ! ---- addresses of arguments, NULL for what is absent ----
+
+  function at_break(x) result(address)
+    type(morula_break_options), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_break
+
+  function at_breaks(x) result(address)
+    type(morula_break_options), intent(in), target, optional :: x(*)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_breaks
+
+  function at_clump(x) result(address)
+    type(morula_clump_options), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_clump
+
+  function at_cost(x) result(address)
+    type(morula_cost_options), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_cost
+
+  function at_cost_bounds(x) result(address)
+    type(morula_cost_bounds), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_cost_bounds
+
+  function at_double(x) result(address)
+    real(c_double), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_double
+
+  function at_doubles(x) result(address)
+    real(c_double), intent(in), target, optional :: x(*)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_doubles
+
+  function at_export(x) result(address)
+    type(morula_export_options), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_export
+
+  function at_file(x) result(address)
+    type(morula_file_options), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_file
+
+  function at_import(x) result(address)
+    type(morula_import_options), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_import
+
+  function at_int32s(x) result(address)
+    integer(c_int32_t), intent(in), target, optional :: x(*)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_int32s
+
+  function at_int64s(x) result(address)
+    integer(c_int64_t), intent(in), target, optional :: x(*)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_int64s
+
+  function at_int8s(x) result(address)
+    integer(c_int8_t), intent(in), target, optional :: x(*)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_int8s
+
+  function at_mass(x) result(address)
+    type(morula_mass_options), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_mass
+
+  function at_pointers(x) result(address)
+    type(c_ptr), intent(in), target, optional :: x(*)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_pointers
+
+  function at_size(x) result(address)
+    integer(c_size_t), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_size
+
+  function at_sizes(x) result(address)
+    integer(c_size_t), intent(in), target, optional :: x(*)
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_sizes
+
+  function at_solid(x) result(address)
+    type(morula_solid_options), intent(in), target, optional :: x
+    type(c_ptr) :: address
+    address = c_null_ptr
+    if (present(x)) address = c_loc(x)
+  end function at_solid
+
   ! ---- morula_shape_t ----
 
   subroutine shape_from_mesh(self, vertices, triangles, options, status)
@@ -2204,7 +2458,7 @@ contains
     integer(c_int32_t), intent(in), contiguous :: triangles(:, :)
     type(morula_import_options), intent(in), optional :: options
     integer(c_int32_t), intent(out), optional :: status
-    type(morula_import_options) :: from_one
+    type(morula_import_options), target :: from_one
     call self%destroy()
     if (size(vertices, 1) /= 3 .or. size(triangles, 1) /= 3) then
       error stop 'morula: vertices and triangles are arrays (3, n)'
@@ -2213,40 +2467,41 @@ contains
     if (present(options)) from_one = options
     from_one%index_base = 1
     call finish(morula_shape_from_mesh(vertices, size(vertices, 2, c_size_t), triangles, &
-      size(triangles, 2, c_size_t), from_one, self%handle), status)
+      size(triangles, 2, c_size_t), at_import(from_one), self%handle), status)
   end subroutine shape_from_mesh
 
   subroutine shape_from_file(self, path, options, file_options, status)
     class(morula_shape_t), intent(inout) :: self
     character(*), intent(in) :: path
-    type(morula_import_options), intent(in), optional :: options
-    type(morula_file_options), intent(in), optional :: file_options
+    type(morula_import_options), intent(in), optional, target :: options
+    type(morula_file_options), intent(in), optional, target :: file_options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_shape_from_file(terminated(path), options, file_options, self%handle), status)
+    call finish(morula_shape_from_file(terminated(path), at_import(options), &
+      at_file(file_options), self%handle), status)
   end subroutine shape_from_file
 
   subroutine shape_from_bytes(self, bytes, name, options, file_options, status)
     class(morula_shape_t), intent(inout) :: self
     integer(c_int8_t), intent(in), contiguous :: bytes(:)
     character(*), intent(in) :: name
-    type(morula_import_options), intent(in), optional :: options
-    type(morula_file_options), intent(in), optional :: file_options
+    type(morula_import_options), intent(in), optional, target :: options
+    type(morula_file_options), intent(in), optional, target :: file_options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
     call finish(morula_shape_from_bytes(bytes, size(bytes, kind=c_size_t), terminated(name), &
-      options, file_options, self%handle), status)
+      at_import(options), at_file(file_options), self%handle), status)
   end subroutine shape_from_bytes
 
   subroutine shape_from_mask(self, mask, spacing, origin, options, status)
     class(morula_shape_t), intent(inout) :: self
     integer(c_int8_t), intent(in), contiguous :: mask(:, :, :)
-    real(c_double), intent(in), optional :: spacing(3), origin(3)
-    type(morula_import_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target :: spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_shape_from_mask(mask, shape(mask, c_size_t), spacing, origin, options, &
-      self%handle), status)
+    call finish(morula_shape_from_mask(mask, shape(mask, c_size_t), at_doubles(spacing), &
+      at_doubles(origin), at_import(options), self%handle), status)
   end subroutine shape_from_mask
 
   !> The visual hull of silhouettes, one behind the other in masks. cameras(:, k, i) is row k of the
@@ -2259,7 +2514,7 @@ contains
     real(c_double), intent(in), contiguous :: cameras(:, :, :)
     integer, intent(in), optional :: cells
     integer(c_int32_t), intent(in), optional :: carve
-    type(morula_import_options), intent(in), optional :: options
+    type(morula_import_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     integer(c_size_t) :: n
     integer(c_int32_t) :: way
@@ -2272,53 +2527,53 @@ contains
         size(masks, kind=c_size_t) /= sum(widths * heights)) then
       error stop 'morula: masks has sum(widths*heights) elements and cameras is an array (4, 3, n)'
     end if
-    call finish(morula_shape_from_silhouettes(size(widths, kind=c_size_t), masks, widths, heights, &
-      cameras, n, way, options, self%handle), status)
+    call finish(morula_shape_from_silhouettes(size(widths, kind=c_size_t), masks, widths, &
+      heights, cameras, n, way, at_import(options), self%handle), status)
   end subroutine shape_from_silhouettes
 
   subroutine shape_from_grey_u8(self, values, threshold, spacing, origin, options, status)
     class(morula_shape_t), intent(inout) :: self
     integer(c_int8_t), intent(in), contiguous :: values(:, :, :)
-    real(c_double), intent(in), optional :: threshold, spacing(3), origin(3)
-    type(morula_import_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target :: threshold, spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_shape_from_grey_u8(values, shape(values, c_size_t), spacing, origin, &
-      threshold, options, self%handle), status)
+    call finish(morula_shape_from_grey_u8(values, shape(values, c_size_t), at_doubles(spacing), &
+      at_doubles(origin), at_double(threshold), at_import(options), self%handle), status)
   end subroutine shape_from_grey_u8
 
   subroutine shape_from_grey_u16(self, values, threshold, spacing, origin, options, status)
     class(morula_shape_t), intent(inout) :: self
     integer(c_int16_t), intent(in), contiguous :: values(:, :, :)
-    real(c_double), intent(in), optional :: threshold, spacing(3), origin(3)
-    type(morula_import_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target :: threshold, spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_shape_from_grey_u16(values, shape(values, c_size_t), spacing, origin, &
-      threshold, options, self%handle), status)
+    call finish(morula_shape_from_grey_u16(values, shape(values, c_size_t), at_doubles(spacing), &
+      at_doubles(origin), at_double(threshold), at_import(options), self%handle), status)
   end subroutine shape_from_grey_u16
 
   subroutine shape_from_grey_f32(self, values, threshold, spacing, origin, options, status)
     class(morula_shape_t), intent(inout) :: self
     real(c_float), intent(in), contiguous :: values(:, :, :)
-    real(c_double), intent(in), optional :: threshold, spacing(3), origin(3)
-    type(morula_import_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target :: threshold, spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_shape_from_grey_f32(values, shape(values, c_size_t), spacing, origin, &
-      threshold, options, self%handle), status)
+    call finish(morula_shape_from_grey_f32(values, shape(values, c_size_t), at_doubles(spacing), &
+      at_doubles(origin), at_double(threshold), at_import(options), self%handle), status)
   end subroutine shape_from_grey_f32
 
   subroutine shape_from_label(self, labels, label, spacing, origin, options, status)
     class(morula_shape_t), intent(inout) :: self
     integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
     integer(c_int32_t), intent(in) :: label
-    real(c_double), intent(in), optional :: spacing(3), origin(3)
-    type(morula_import_options), intent(in), optional :: options
+    real(c_double), intent(in), optional, target :: spacing(3), origin(3)
+    type(morula_import_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_shape_from_label(labels, shape(labels, c_size_t), spacing, origin, label, &
-      options, self%handle), status)
+    call finish(morula_shape_from_label(labels, shape(labels, c_size_t), at_doubles(spacing), &
+      at_doubles(origin), label, at_import(options), self%handle), status)
   end subroutine shape_from_label
 
   subroutine shape_from_primitive(self, name, keys, values, segments, seed, options, status)
@@ -2328,7 +2583,7 @@ contains
     real(c_double), intent(in), optional :: values(:)
     integer, intent(in), optional :: segments
     integer(c_int64_t), intent(in), optional :: seed
-    type(morula_import_options), intent(in), optional :: options
+    type(morula_import_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     character(kind=c_char), allocatable, target :: texts(:, :)
     type(c_ptr), allocatable :: pointers(:)
@@ -2359,7 +2614,7 @@ contains
     which = 0
     if (present(seed)) which = seed
     call finish(morula_shape_from_primitive(terminated(name), pointers, numbers, &
-      int(n, c_size_t), edges, which, options, self%handle), status)
+      int(n, c_size_t), edges, which, at_import(options), self%handle), status)
   end subroutine shape_from_primitive
 
   subroutine shape_report(self, report, status)
@@ -2386,15 +2641,15 @@ contains
     character(:), allocatable, intent(out) :: text
     integer(c_int32_t), intent(out), optional :: status
     character(kind=c_char), allocatable, target :: buffer(:)
-    integer(c_size_t) :: at, length
+    integer(c_size_t), target :: at, length
     integer(c_int32_t) :: code
     at = int(index - 1, c_size_t)
     length = 0
-    code = morula_shape_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, length)
+    code = morula_shape_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, at_size(length))
     allocate(buffer(length + 1))
     buffer = c_null_char
     if (code == MORULA_STATUS_OK) then
-      code = morula_shape_copy_note(self%handle, at, length + 1, c_loc(buffer))
+      code = morula_shape_copy_note(self%handle, at, length + 1, c_loc(buffer), c_null_ptr)
     end if
     text = morula_text(c_loc(buffer))
     call finish(code, status)
@@ -2429,7 +2684,7 @@ contains
     handle = self%handle
   end function shape_handle
 
-  subroutine shape_assign(self, other)
+  impure elemental subroutine shape_assign(self, other)
     class(morula_shape_t), intent(inout) :: self
     class(morula_shape_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
@@ -2445,18 +2700,19 @@ contains
   subroutine solid_create(self, shape, options, status)
     class(morula_solid_t), intent(inout) :: self
     class(morula_shape_t), intent(in) :: shape
-    type(morula_solid_options), intent(in), optional :: options
+    type(morula_solid_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_solid_from_shape(shape%handle, options, self%handle), status)
+    call finish(morula_solid_from_shape(shape%handle, at_solid(options), self%handle), status)
   end subroutine solid_create
 
   subroutine solid_grid(self, dims, spacing, origin, status)
     class(morula_solid_t), intent(in) :: self
-    integer(c_size_t), intent(out), optional :: dims(3)
-    real(c_double), intent(out), optional :: spacing(3), origin(3)
+    integer(c_size_t), intent(out), optional, target :: dims(3)
+    real(c_double), intent(out), optional, target :: spacing(3), origin(3)
     integer(c_int32_t), intent(out), optional :: status
-    call finish(morula_solid_grid(self%handle, dims, spacing, origin), status)
+    call finish(morula_solid_grid(self%handle, at_sizes(dims), at_doubles(spacing), &
+      at_doubles(origin)), status)
   end subroutine solid_grid
 
   subroutine solid_distance(self, points, distances, status)
@@ -2487,15 +2743,15 @@ contains
     character(:), allocatable, intent(out) :: text
     integer(c_int32_t), intent(out), optional :: status
     character(kind=c_char), allocatable, target :: buffer(:)
-    integer(c_size_t) :: at, length
+    integer(c_size_t), target :: at, length
     integer(c_int32_t) :: code
     at = int(index - 1, c_size_t)
     length = 0
-    code = morula_solid_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, length)
+    code = morula_solid_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, at_size(length))
     allocate(buffer(length + 1))
     buffer = c_null_char
     if (code == MORULA_STATUS_OK) then
-      code = morula_solid_copy_note(self%handle, at, length + 1, c_loc(buffer))
+      code = morula_solid_copy_note(self%handle, at, length + 1, c_loc(buffer), c_null_ptr)
     end if
     text = morula_text(c_loc(buffer))
     call finish(code, status)
@@ -2530,7 +2786,7 @@ contains
     handle = self%handle
   end function solid_handle
 
-  subroutine solid_assign(self, other)
+  impure elemental subroutine solid_assign(self, other)
     class(morula_solid_t), intent(inout) :: self
     class(morula_solid_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
@@ -2547,15 +2803,16 @@ contains
     class(morula_clump_t), intent(inout) :: self
     class(morula_shape_t), intent(in) :: shape
     type(morula_clump_options), intent(in), optional :: clump_options
-    type(morula_solid_options), intent(in), optional :: solid_options
+    type(morula_solid_options), intent(in), optional, target :: solid_options
     real(c_double), intent(in), contiguous, target, optional :: plane_tolerances(:)
     integer(c_int32_t), intent(out), optional :: status
-    type(morula_clump_options) :: options
+    type(morula_clump_options), target :: options
     call self%destroy()
     call morula_init(options)
     if (present(clump_options)) options = clump_options
     if (present(plane_tolerances)) call set_planes(options, plane_tolerances)
-    call finish(morula_clump_from_shape(shape%handle, solid_options, options, self%handle), status)
+    call finish(morula_clump_from_shape(shape%handle, at_solid(solid_options), at_clump(options), &
+      self%handle), status)
   end subroutine clump_from_shape
 
   subroutine clump_from_solid(self, solid, clump_options, plane_tolerances, status)
@@ -2564,25 +2821,25 @@ contains
     type(morula_clump_options), intent(in), optional :: clump_options
     real(c_double), intent(in), contiguous, target, optional :: plane_tolerances(:)
     integer(c_int32_t), intent(out), optional :: status
-    type(morula_clump_options) :: options
+    type(morula_clump_options), target :: options
     call self%destroy()
     call morula_init(options)
     if (present(clump_options)) options = clump_options
     if (present(plane_tolerances)) call set_planes(options, plane_tolerances)
-    call finish(morula_clump_from_solid(solid%handle, options, self%handle), status)
+    call finish(morula_clump_from_solid(solid%handle, at_clump(options), self%handle), status)
   end subroutine clump_from_solid
 
   subroutine clumps_from_solid(clumps, solid, spheres, clump_options, status)
     type(morula_clump_t), intent(inout) :: clumps(:)
     class(morula_solid_t), intent(in) :: solid
     integer, intent(in) :: spheres(:)
-    type(morula_clump_options), intent(in), optional :: clump_options
+    type(morula_clump_options), intent(in), optional, target :: clump_options
     integer(c_int32_t), intent(out), optional :: status
     type(c_ptr) :: handles(size(clumps))
     integer(c_int32_t) :: code
     call empty(clumps, size(spheres), handles)
-    code = morula_clumps_from_solid(solid%handle, clump_options, int(spheres, c_int64_t), &
-      size(spheres, kind=c_size_t), handles)
+    code = morula_clumps_from_solid(solid%handle, at_clump(clump_options), &
+      int(spheres, c_int64_t), size(spheres, kind=c_size_t), handles)
     clumps%handle = handles
     call finish(code, status)
   end subroutine clumps_from_solid
@@ -2590,19 +2847,19 @@ contains
   subroutine clumps_from_shapes(clumps, shapes, clump_options, solid_options, statuses, status)
     type(morula_clump_t), intent(inout) :: clumps(:)
     type(morula_shape_t), intent(in) :: shapes(:)
-    type(morula_clump_options), intent(in), optional :: clump_options
-    type(morula_solid_options), intent(in), optional :: solid_options
+    type(morula_clump_options), intent(in), optional, target :: clump_options
+    type(morula_solid_options), intent(in), optional, target :: solid_options
     integer(c_int32_t), intent(inout), contiguous, optional :: statuses(:)
     integer(c_int32_t), intent(out), optional :: status
     type(c_ptr) :: handles(size(clumps)), from(size(shapes))
-    integer(c_int32_t) :: code, told(size(clumps))
+    integer(c_int32_t), target :: code, told(size(clumps))
     call empty(clumps, size(shapes), handles)
     if (present(statuses)) call as_long(statuses, clumps)
     told = MORULA_STATUS_OK
     if (present(statuses)) told = statuses
     from = shapes%handle
-    code = morula_clumps_from_shapes(from, size(from, kind=c_size_t), solid_options, &
-      clump_options, handles, told)
+    code = morula_clumps_from_shapes(from, size(from, kind=c_size_t), at_solid(solid_options), &
+      at_clump(clump_options), handles, at_int32s(told))
     if (present(statuses)) statuses = told
     clumps%handle = handles
     call finish(code, status)
@@ -2613,20 +2870,21 @@ contains
     type(morula_clump_t), intent(inout) :: clumps(:)
     integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
     integer(c_int32_t), intent(in), contiguous :: wanted(:)
-    real(c_double), intent(in), optional :: spacing(3), origin(3)
-    type(morula_clump_options), intent(in), optional :: clump_options
-    type(morula_import_options), intent(in), optional :: import_options
-    type(morula_solid_options), intent(in), optional :: solid_options
+    real(c_double), intent(in), optional, target :: spacing(3), origin(3)
+    type(morula_clump_options), intent(in), optional, target :: clump_options
+    type(morula_import_options), intent(in), optional, target :: import_options
+    type(morula_solid_options), intent(in), optional, target :: solid_options
     integer(c_int32_t), intent(inout), contiguous, optional :: statuses(:)
     integer(c_int32_t), intent(out), optional :: status
     type(c_ptr) :: handles(size(clumps))
-    integer(c_int32_t) :: code, told(size(clumps))
+    integer(c_int32_t), target :: code, told(size(clumps))
     call empty(clumps, size(wanted), handles)
     if (present(statuses)) call as_long(statuses, clumps)
     told = MORULA_STATUS_OK
     if (present(statuses)) told = statuses
-    code = morula_clumps_from_labels(labels, shape(labels, c_size_t), spacing, origin, wanted, &
-      size(wanted, kind=c_size_t), import_options, solid_options, clump_options, handles, told)
+    code = morula_clumps_from_labels(labels, shape(labels, c_size_t), at_doubles(spacing), &
+      at_doubles(origin), wanted, size(wanted, kind=c_size_t), at_import(import_options), &
+      at_solid(solid_options), at_clump(clump_options), handles, at_int32s(told))
     if (present(statuses)) statuses = told
     clumps%handle = handles
     call finish(code, status)
@@ -2688,14 +2946,14 @@ contains
     character(:), allocatable, intent(out) :: text
     integer(c_int32_t), intent(out), optional :: status
     character(kind=c_char), allocatable, target :: buffer(:)
-    integer(c_size_t) :: length
+    integer(c_size_t), target :: length
     integer(c_int32_t) :: code
     length = 0
-    code = morula_clump_copy_note(self%handle, 0_c_size_t, c_null_ptr, length)
+    code = morula_clump_copy_note(self%handle, 0_c_size_t, c_null_ptr, at_size(length))
     allocate(buffer(length + 1))
     buffer = c_null_char
     if (code == MORULA_STATUS_OK) then
-      code = morula_clump_copy_note(self%handle, length + 1, c_loc(buffer))
+      code = morula_clump_copy_note(self%handle, length + 1, c_loc(buffer), c_null_ptr)
     end if
     text = morula_text(c_loc(buffer))
     call finish(code, status)
@@ -2703,15 +2961,15 @@ contains
 
   subroutine shape_serialize(self, bytes, status)
     class(morula_shape_t), intent(in) :: self
-    integer(c_int8_t), allocatable, intent(out) :: bytes(:)
+    integer(c_int8_t), allocatable, intent(out), target :: bytes(:)
     integer(c_int32_t), intent(out), optional :: status
-    integer(c_size_t) :: length
+    integer(c_size_t), target :: length
     integer(c_int32_t) :: code
     length = 0
-    code = morula_shape_serialize(self%handle, 0_c_size_t, size=length)
+    code = morula_shape_serialize(self%handle, 0_c_size_t, c_null_ptr, at_size(length))
     allocate(bytes(length))
     if (code == MORULA_STATUS_OK) then
-      code = morula_shape_serialize(self%handle, length, bytes)
+      code = morula_shape_serialize(self%handle, length, at_int8s(bytes), c_null_ptr)
     end if
     call finish(code, status)
   end subroutine shape_serialize
@@ -2726,15 +2984,15 @@ contains
 
   subroutine clump_serialize(self, bytes, status)
     class(morula_clump_t), intent(in) :: self
-    integer(c_int8_t), allocatable, intent(out) :: bytes(:)
+    integer(c_int8_t), allocatable, intent(out), target :: bytes(:)
     integer(c_int32_t), intent(out), optional :: status
-    integer(c_size_t) :: length
+    integer(c_size_t), target :: length
     integer(c_int32_t) :: code
     length = 0
-    code = morula_clump_serialize(self%handle, 0_c_size_t, size=length)
+    code = morula_clump_serialize(self%handle, 0_c_size_t, c_null_ptr, at_size(length))
     allocate(bytes(length))
     if (code == MORULA_STATUS_OK) then
-      code = morula_clump_serialize(self%handle, length, bytes)
+      code = morula_clump_serialize(self%handle, length, at_int8s(bytes), c_null_ptr)
     end if
     call finish(code, status)
   end subroutine clump_serialize
@@ -2796,6 +3054,39 @@ contains
     call finish(morula_clump_counters(self%handle, counters), status)
   end subroutine clump_counters
 
+  subroutine clump_transform(self, placed, scale, position, quaternion, masses, status)
+    class(morula_clump_t), intent(in) :: self
+    type(morula_body_t), intent(inout) :: placed
+    real(c_double), intent(in) :: scale
+    real(c_double), intent(in), optional, target :: position(3), quaternion(4)
+    type(morula_mass_options), intent(in), optional, target :: masses
+    integer(c_int32_t), intent(out), optional :: status
+    call placed%destroy()
+    call finish(morula_clump_transform(self%handle, at_mass(masses), scale, at_doubles(position), &
+      at_doubles(quaternion), placed%handle), status)
+  end subroutine clump_transform
+
+  subroutine clump_timestep(self, contact, timestep, masses, status)
+    class(morula_clump_t), intent(in) :: self
+    type(morula_contact_options), intent(in) :: contact
+    type(morula_timestep), intent(out) :: timestep
+    type(morula_mass_options), intent(in), optional, target :: masses
+    integer(c_int32_t), intent(out), optional :: status
+    timestep%struct_size = c_sizeof(timestep)
+    call finish(morula_clump_timestep(self%handle, at_mass(masses), contact, timestep), status)
+  end subroutine clump_timestep
+
+  subroutine clump_write(self, format, path, masses, options, status)
+    class(morula_clump_t), intent(in) :: self
+    integer(c_int32_t), intent(in) :: format
+    character(*), intent(in) :: path
+    type(morula_mass_options), intent(in), optional, target :: masses
+    type(morula_export_options), intent(in), optional, target :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call finish(morula_clump_write(self%handle, at_mass(masses), format, at_export(options), &
+      terminated(path)), status)
+  end subroutine clump_write
+
   subroutine clump_destroy(self)
     class(morula_clump_t), intent(inout) :: self
     call morula_clump_free(self%handle)
@@ -2808,7 +3099,7 @@ contains
     handle = self%handle
   end function clump_handle
 
-  subroutine clump_assign(self, other)
+  impure elemental subroutine clump_assign(self, other)
     class(morula_clump_t), intent(inout) :: self
     class(morula_clump_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
@@ -2824,24 +3115,24 @@ contains
   subroutine body_from_clump(self, clump, options, status)
     class(morula_body_t), intent(inout) :: self
     class(morula_clump_t), intent(in) :: clump
-    type(morula_mass_options), intent(in), optional :: options
+    type(morula_mass_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_body_from_clump(clump%handle, options, self%handle), status)
+    call finish(morula_body_from_clump(clump%handle, at_mass(options), self%handle), status)
   end subroutine body_from_clump
 
   subroutine body_from_spheres(self, xyzr, solid, options, status)
     class(morula_body_t), intent(inout) :: self
     real(c_double), intent(in), contiguous :: xyzr(:, :)
     class(morula_solid_t), intent(in), optional :: solid
-    type(morula_mass_options), intent(in), optional :: options
+    type(morula_mass_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     type(c_ptr) :: of
     if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
     call self%destroy()
     of = c_null_ptr
     if (present(solid)) of = solid%handle
-    call finish(morula_body_from_spheres(xyzr, size(xyzr, 2, c_size_t), of, options, &
+    call finish(morula_body_from_spheres(xyzr, size(xyzr, 2, c_size_t), of, at_mass(options), &
       self%handle), status)
   end subroutine body_from_spheres
 
@@ -2920,7 +3211,7 @@ contains
     class(morula_body_t), intent(in) :: self
     type(morula_body_t), intent(inout) :: placed
     real(c_double), intent(in) :: scale
-    real(c_double), intent(in), optional :: position(3), quaternion(4), density
+    real(c_double), intent(in), optional, target :: position(3), quaternion(4), density
     integer(c_int32_t), intent(out), optional :: status
     type(c_ptr) :: made
     real(c_double) :: rho
@@ -2928,7 +3219,8 @@ contains
     rho = 0.0_c_double
     if (present(density)) rho = density
     made = c_null_ptr
-    code = morula_body_transform(self%handle, scale, position, quaternion, rho, made)
+    code = morula_body_transform(self%handle, scale, at_doubles(position), &
+      at_doubles(quaternion), rho, made)
     call placed%destroy()
     placed%handle = made
     call finish(code, status)
@@ -2947,9 +3239,10 @@ contains
     class(morula_body_t), intent(in) :: self
     integer(c_int32_t), intent(in) :: format
     character(*), intent(in) :: path
-    type(morula_export_options), intent(in), optional :: options
+    type(morula_export_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
-    call finish(morula_body_write(self%handle, format, options, path // c_null_char), status)
+    call finish(morula_body_write(self%handle, format, at_export(options), terminated(path)), &
+      status)
   end subroutine body_write
 
   subroutine body_destroy(self)
@@ -2964,7 +3257,7 @@ contains
     handle = self%handle
   end function body_handle
 
-  subroutine body_assign(self, other)
+  impure elemental subroutine body_assign(self, other)
     class(morula_body_t), intent(inout) :: self
     class(morula_body_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
@@ -2975,16 +3268,97 @@ contains
     call self%destroy()
   end subroutine body_final
 
+  ! ---- files in memory ----
+
+  subroutine files_create(self, body, format, options, status)
+    class(morula_files_t), intent(inout) :: self
+    class(morula_body_t), intent(in) :: body
+    integer(c_int32_t), intent(in) :: format
+    type(morula_export_options), intent(in), optional, target :: options
+    integer(c_int32_t), intent(out), optional :: status
+    call self%destroy()
+    call finish(morula_body_export(body%handle, format, at_export(options), self%handle), status)
+  end subroutine files_create
+
+  subroutine files_count(self, count, status)
+    class(morula_files_t), intent(in) :: self
+    integer, intent(out) :: count
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    n = 0
+    call finish(morula_files_count(self%handle, n), status)
+    count = int(n)
+  end subroutine files_count
+
+  subroutine files_name(self, index, text, status)
+    class(morula_files_t), intent(in) :: self
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out) :: text
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: buffer(:)
+    integer(c_size_t), target :: length
+    integer(c_size_t) :: at
+    integer(c_int32_t) :: code
+    at = int(index - 1, c_size_t)
+    length = 0
+    code = morula_files_copy_name(self%handle, at, 0_c_size_t, c_null_ptr, at_size(length))
+    allocate(buffer(length + 1))
+    buffer = c_null_char
+    if (code == MORULA_STATUS_OK) then
+      code = morula_files_copy_name(self%handle, at, length + 1, c_loc(buffer), c_null_ptr)
+    end if
+    text = morula_text(c_loc(buffer))
+    call finish(code, status)
+  end subroutine files_name
+
+  subroutine files_bytes(self, index, bytes, status)
+    class(morula_files_t), intent(in) :: self
+    integer, intent(in) :: index
+    integer(c_int8_t), allocatable, intent(out) :: bytes(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: at, size
+    integer(c_int32_t) :: code
+    at = int(index - 1, c_size_t)
+    size = 0
+    code = morula_files_size(self%handle, at, size)
+    allocate(bytes(size))
+    if (code == MORULA_STATUS_OK) code = morula_files_copy_bytes(self%handle, at, size, bytes)
+    call finish(code, status)
+  end subroutine files_bytes
+
+  subroutine files_destroy(self)
+    class(morula_files_t), intent(inout) :: self
+    call morula_files_free(self%handle)
+    self%handle = c_null_ptr
+  end subroutine files_destroy
+
+  function files_handle(self) result(handle)
+    class(morula_files_t), intent(in) :: self
+    type(c_ptr) :: handle
+    handle = self%handle
+  end function files_handle
+
+  impure elemental subroutine files_assign(self, other)
+    class(morula_files_t), intent(inout) :: self
+    class(morula_files_t), intent(in) :: other
+    if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
+  end subroutine files_assign
+
+  impure elemental subroutine files_final(self)
+    type(morula_files_t), intent(inout) :: self
+    call self%destroy()
+  end subroutine files_final
+
   ! ---- price lists ----
 
   subroutine cost_create(self, solid, options, cost, status)
     class(morula_cost_t), intent(inout) :: self
     class(morula_solid_t), intent(in) :: solid
-    type(morula_clump_options), intent(in), optional :: options
-    type(morula_cost_options), intent(in), optional :: cost
+    type(morula_clump_options), intent(in), optional, target :: options
+    type(morula_cost_options), intent(in), optional, target :: cost
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_cost_curve(solid%handle, options, cost, self%handle), status)
+    call finish(morula_cost_curve(solid%handle, at_clump(options), at_cost(cost), self%handle), status)
   end subroutine cost_create
 
   subroutine cost_count(self, count, status)
@@ -3036,18 +3410,20 @@ contains
     class(morula_cost_t), intent(in) :: self
     integer, intent(out) :: index
     character(:), allocatable, intent(out) :: why
-    type(morula_cost_bounds), intent(in), optional :: bounds
+    type(morula_cost_bounds), intent(in), optional, target :: bounds
     integer(c_int32_t), intent(out), optional :: status
     character(kind=c_char), allocatable, target :: buffer(:)
-    integer(c_size_t) :: at, length
+    integer(c_size_t), target :: at, length
     integer(c_int32_t) :: code
     at = 0
     length = 0
-    code = morula_cost_choose(self%handle, bounds, at, 0_c_size_t, c_null_ptr, length)
+    code = morula_cost_choose(self%handle, at_cost_bounds(bounds), at, 0_c_size_t, c_null_ptr, &
+      at_size(length))
     allocate(buffer(length + 1))
     buffer = c_null_char
     if (code == MORULA_STATUS_OK) then
-      code = morula_cost_choose(self%handle, bounds, at, length + 1, c_loc(buffer))
+      code = morula_cost_choose(self%handle, at_cost_bounds(bounds), at, length + 1, &
+        c_loc(buffer), c_null_ptr)
     end if
     why = morula_text(c_loc(buffer))
     index = int(at) + 1
@@ -3066,7 +3442,7 @@ contains
     handle = self%handle
   end function cost_handle
 
-  subroutine cost_assign(self, other)
+  impure elemental subroutine cost_assign(self, other)
     class(morula_cost_t), intent(inout) :: self
     class(morula_cost_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
@@ -3085,9 +3461,9 @@ contains
     integer(c_int32_t), intent(in) :: methods(:)
     integer(c_int32_t), intent(in), optional :: efforts(:)
     real(c_double), intent(in), optional :: deadlines(:)
-    type(morula_solid_options), intent(in), optional :: solid
-    type(morula_clump_options), intent(in), optional :: options
-    type(morula_cost_options), intent(in), optional :: cost
+    type(morula_solid_options), intent(in), optional, target :: solid
+    type(morula_clump_options), intent(in), optional, target :: options
+    type(morula_cost_options), intent(in), optional, target :: cost
     integer(c_int32_t), intent(out), optional :: status
     real(c_double), target :: grids(max(1, size(resolutions)))
     integer(c_int32_t), target :: ways(max(1, size(methods))), hard(max(1, size(methods)))
@@ -3114,8 +3490,8 @@ contains
       what%deadline_count = 1
     end if
     what%deadlines = c_loc(seconds)
-    call finish(morula_sweep_from_shape(shape%handle, solid, options, cost, what, self%handle), &
-      status)
+    call finish(morula_sweep_from_shape(shape%handle, at_solid(solid), at_clump(options), &
+      at_cost(cost), what, self%handle), status)
   end subroutine sweep_create
 
   subroutine sweep_count(self, count, status)
@@ -3165,7 +3541,7 @@ contains
     handle = self%handle
   end function sweep_handle
 
-  subroutine sweep_assign(self, other)
+  impure elemental subroutine sweep_assign(self, other)
     class(morula_sweep_t), intent(inout) :: self
     class(morula_sweep_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
@@ -3206,11 +3582,11 @@ contains
     class(morula_cache_t), intent(in) :: cache
     class(morula_shape_t), intent(in) :: shape
     real(c_double), intent(in), contiguous :: xyzr(:, :)
-    type(morula_solid_options), intent(in), optional :: options
+    type(morula_solid_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
     call self%destroy()
-    call finish(morula_cache_parent(cache%handle, shape%handle, options, xyzr, &
+    call finish(morula_cache_parent(cache%handle, shape%handle, at_solid(options), xyzr, &
       size(xyzr, 2, c_size_t), self%handle), status)
   end subroutine parent_from_cache
 
@@ -3226,15 +3602,15 @@ contains
     class(morula_parent_t), intent(in) :: self
     type(morula_held), intent(out) :: held
     real(c_double), intent(in) :: density
-    real(c_double), intent(in), optional :: scale, position(3), quaternion(4), velocity(3)
-    real(c_double), intent(in), optional :: angular_velocity(3)
+    real(c_double), intent(in), optional, target :: scale, position(3), quaternion(4), velocity(3)
+    real(c_double), intent(in), optional, target :: angular_velocity(3)
     integer(c_int32_t), intent(out), optional :: status
     real(c_double) :: factor
     factor = 1.0_c_double
     if (present(scale)) factor = scale
     held%struct_size = c_sizeof(held)
-    call finish(morula_parent_held(self%handle, density, factor, position, quaternion, velocity, &
-      angular_velocity, held), status)
+    call finish(morula_parent_held(self%handle, density, factor, at_doubles(position), &
+      at_doubles(quaternion), at_doubles(velocity), at_doubles(angular_velocity), held), status)
   end subroutine parent_held
 
   subroutine parent_bytes(self, bytes, status)
@@ -3252,13 +3628,13 @@ contains
     class(morula_parent_t), intent(in) :: parents(:)
     type(morula_held), intent(in), contiguous :: held(:)
     class(morula_fragments_t), intent(inout) :: fragments(:)
-    type(morula_break_options), intent(in), contiguous, optional :: options(:)
+    type(morula_break_options), intent(in), contiguous, optional, target :: options(:)
     class(morula_fragments_t), intent(in), optional :: from(:)
     integer, intent(in), optional :: indices(:)
-    integer(c_int32_t), intent(out), contiguous, optional :: statuses(:)
+    integer(c_int32_t), intent(out), contiguous, optional, target :: statuses(:)
     integer(c_int32_t), intent(out), optional :: status
-    type(c_ptr) :: handles(size(parents)), origins(size(parents)), made(size(parents))
-    integer(c_size_t) :: numbers(size(parents))
+    type(c_ptr), target :: handles(size(parents)), origins(size(parents)), made(size(parents))
+    integer(c_size_t), target :: numbers(size(parents))
     integer(c_int32_t) :: code
     integer :: i
     if (size(held) /= size(parents) .or. size(fragments) /= size(parents)) then
@@ -3274,8 +3650,8 @@ contains
         numbers(i) = int(indices(i) - 1, c_size_t)
       end if
     end do
-    code = morula_parents_break(handles, origins, numbers, held, options, &
-      size(parents, kind=c_size_t), made, statuses)
+    code = morula_parents_break(handles, at_pointers(origins), at_sizes(numbers), held, &
+      at_breaks(options), size(parents, kind=c_size_t), made, at_int32s(statuses))
     do i = 1, size(parents)
       call fragments(i)%destroy()
       fragments(i)%handle = made(i)
@@ -3295,7 +3671,7 @@ contains
     handle = self%handle
   end function parent_handle
 
-  subroutine parent_assign(self, other)
+  impure elemental subroutine parent_assign(self, other)
     class(morula_parent_t), intent(inout) :: self
     class(morula_parent_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
@@ -3342,7 +3718,7 @@ contains
     handle = self%handle
   end function cache_handle
 
-  subroutine cache_assign(self, other)
+  impure elemental subroutine cache_assign(self, other)
     class(morula_cache_t), intent(inout) :: self
     class(morula_cache_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()
@@ -3358,16 +3734,16 @@ contains
   subroutine fragments_serialize(self, index, bytes, status)
     class(morula_fragments_t), intent(in) :: self
     integer, intent(in) :: index
-    integer(c_int8_t), allocatable, intent(out) :: bytes(:)
+    integer(c_int8_t), allocatable, intent(out), target :: bytes(:)
     integer(c_int32_t), intent(out), optional :: status
-    integer(c_size_t) :: length, at
+    integer(c_size_t), target :: length, at
     integer(c_int32_t) :: code
     length = 0
     at = int(index - 1, c_size_t)
-    code = morula_fragments_serialize(self%handle, at, 0_c_size_t, size=length)
+    code = morula_fragments_serialize(self%handle, at, 0_c_size_t, c_null_ptr, at_size(length))
     allocate(bytes(length))
     if (code == MORULA_STATUS_OK) then
-      code = morula_fragments_serialize(self%handle, at, length, bytes)
+      code = morula_fragments_serialize(self%handle, at, length, at_int8s(bytes), c_null_ptr)
     end if
     call finish(code, status)
   end subroutine fragments_serialize
@@ -3387,11 +3763,11 @@ contains
     class(morula_fragments_t), intent(inout) :: self
     class(morula_parent_t), intent(in) :: parent
     type(morula_held), intent(in) :: held
-    type(morula_break_options), intent(in), optional :: options
+    type(morula_break_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     call self%destroy()
-    call finish(morula_parent_break(parent%handle, c_null_ptr, 0_c_size_t, held, options, &
-      self%handle), status)
+    call finish(morula_parent_break(parent%handle, c_null_ptr, 0_c_size_t, held, &
+      at_break(options), self%handle), status)
   end subroutine fragments_of_parent
 
   subroutine fragments_of_fragment(self, from, index, held, options, status)
@@ -3399,12 +3775,13 @@ contains
     class(morula_fragments_t), intent(in) :: from
     integer, intent(in) :: index
     type(morula_held), intent(in) :: held
-    type(morula_break_options), intent(in), optional :: options
+    type(morula_break_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     type(c_ptr) :: made
     integer(c_int32_t) :: code
     made = c_null_ptr
-    code = morula_parent_break(c_null_ptr, from%handle, int(index - 1, c_size_t), held, options, made)
+    code = morula_parent_break(c_null_ptr, from%handle, int(index - 1, c_size_t), held, &
+      at_break(options), made)
     call self%destroy()
     self%handle = made
     call finish(code, status)
@@ -3416,14 +3793,15 @@ contains
     integer(c_int32_t), intent(in), contiguous :: labels(:, :, :)
     real(c_double), intent(in), contiguous :: xyzr(:, :)
     type(morula_held), intent(in) :: held
-    real(c_double), intent(in), optional :: spacing(3), origin(3)
-    type(morula_break_options), intent(in), optional :: options
-    type(morula_solid_options), intent(in), optional :: solid_options
+    real(c_double), intent(in), optional, target :: spacing(3), origin(3)
+    type(morula_break_options), intent(in), optional, target :: options
+    type(morula_solid_options), intent(in), optional, target :: solid_options
     integer(c_int32_t), intent(out), optional :: status
     if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
     call self%destroy()
-    call finish(morula_fragments_from_labels(labels, shape(labels, c_size_t), spacing, origin, &
-      solid_options, xyzr, size(xyzr, 2, c_size_t), held, options, self%handle), status)
+    call finish(morula_fragments_from_labels(labels, shape(labels, c_size_t), &
+      at_doubles(spacing), at_doubles(origin), at_solid(solid_options), xyzr, &
+      size(xyzr, 2, c_size_t), held, at_break(options), self%handle), status)
   end subroutine fragments_from_labels
 
   subroutine fragments_reclump(self, solid, xyzr, held, options, status)
@@ -3431,12 +3809,12 @@ contains
     class(morula_solid_t), intent(in) :: solid
     real(c_double), intent(in), contiguous :: xyzr(:, :)
     type(morula_held), intent(in) :: held
-    type(morula_break_options), intent(in), optional :: options
+    type(morula_break_options), intent(in), optional, target :: options
     integer(c_int32_t), intent(out), optional :: status
     if (size(xyzr, 1) /= 4) error stop 'morula: xyzr is an array (4, n)'
     call self%destroy()
-    call finish(morula_reclump_shape(solid%handle, xyzr, size(xyzr, 2, c_size_t), held, options, &
-      self%handle), status)
+    call finish(morula_reclump_shape(solid%handle, xyzr, size(xyzr, 2, c_size_t), held, &
+      at_break(options), self%handle), status)
   end subroutine fragments_reclump
 
   subroutine fragments_count(self, count, status)
@@ -3490,12 +3868,13 @@ contains
     class(morula_fragments_t), intent(in) :: self
     integer, intent(in) :: index
     type(morula_held), intent(out) :: held
-    real(c_double), intent(in), optional :: position(3), quaternion(4), velocity(3)
-    real(c_double), intent(in), optional :: angular_velocity(3)
+    real(c_double), intent(in), optional, target :: position(3), quaternion(4), velocity(3)
+    real(c_double), intent(in), optional, target :: angular_velocity(3)
     integer(c_int32_t), intent(out), optional :: status
     held%struct_size = c_sizeof(held)
-    call finish(morula_fragments_held(self%handle, int(index - 1, c_size_t), position, &
-      quaternion, velocity, angular_velocity, held), status)
+    call finish(morula_fragments_held(self%handle, int(index - 1, c_size_t), &
+      at_doubles(position), at_doubles(quaternion), at_doubles(velocity), &
+      at_doubles(angular_velocity), held), status)
   end subroutine fragments_held
 
   subroutine fragments_copy_spheres(self, index, xyzr, frame, status)
@@ -3596,15 +3975,15 @@ contains
     character(:), allocatable, intent(out) :: text
     integer(c_int32_t), intent(out), optional :: status
     character(kind=c_char), allocatable, target :: buffer(:)
-    integer(c_size_t) :: at, length
+    integer(c_size_t), target :: at, length
     integer(c_int32_t) :: code
     at = int(index - 1, c_size_t)
     length = 0
-    code = morula_fragments_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, length)
+    code = morula_fragments_copy_note(self%handle, at, 0_c_size_t, c_null_ptr, at_size(length))
     allocate(buffer(length + 1))
     buffer = c_null_char
     if (code == MORULA_STATUS_OK) then
-      code = morula_fragments_copy_note(self%handle, at, length + 1, c_loc(buffer))
+      code = morula_fragments_copy_note(self%handle, at, length + 1, c_loc(buffer), c_null_ptr)
     end if
     text = morula_text(c_loc(buffer))
     call finish(code, status)
@@ -3622,7 +4001,7 @@ contains
     handle = self%handle
   end function fragments_handle
 
-  subroutine fragments_assign(self, other)
+  impure elemental subroutine fragments_assign(self, other)
     class(morula_fragments_t), intent(inout) :: self
     class(morula_fragments_t), intent(in) :: other
     if (c_associated(self%handle) .or. c_associated(other%handle)) call refuse_assignment()

@@ -24,6 +24,10 @@
  * them have ended when it returns. Callbacks are called only on the thread that
  * made the call. Results are the same bytes for any number of threads.
  *
+ * Reentrancy. A callback may call any function of the library, also with the const
+ * handles of the call that it belongs to; it must not free those. The library keeps
+ * nothing between calls but the last message of each thread and the sink of the log.
+ *
  * Layouts. Points x, y, z; spheres x, y, z, r; inertia xx, yy, zz, xy, xz, yz
  * with the products as they stand in the tensor (xy = -integral of x y dm); a
  * rotation by columns, which are the body axes in the input frame; quaternions
@@ -2337,7 +2341,7 @@ int32_t morula_body_transform(const struct morula_body *body,
 ///
 /// Parameters: `masses` may be NULL for the defaults; its density is that of the particle; the rest as
 /// morula_body_transform().
-/// Returns: the statuses of both.
+/// Returns: the statuses of morula_body_from_clump() and morula_body_transform().
 /// Ownership: the clump stays the caller's; free *placed with morula_body_free(). *placed is
 /// written only on success.
 /// Threads: any thread; the clump is only read.
@@ -2386,7 +2390,7 @@ int32_t morula_body_timestep(const struct morula_body *body,
 ///
 /// Parameters: `masses` may be NULL for the defaults; `options` and `timestep` as
 /// morula_body_timestep().
-/// Returns: the statuses of both.
+/// Returns: the statuses of morula_body_from_clump() and morula_body_timestep().
 /// Threads: any thread; the clump is only read.
 int32_t morula_clump_timestep(const struct morula_clump *clump,
                               const struct morula_mass_options *masses,
@@ -2486,7 +2490,7 @@ int32_t morula_body_write(const struct morula_body *body,
 /// Weighs a clump and writes it, as morula_body_from_clump() and morula_body_write() do.
 ///
 /// Parameters: `masses` and `options` may be NULL for the defaults; the rest as morula_body_write().
-/// Returns: the statuses of both.
+/// Returns: the statuses of morula_body_from_clump() and morula_body_write().
 /// Threads: any thread; the clump is only read.
 int32_t morula_clump_write(const struct morula_clump *clump,
                            const struct morula_mass_options *masses,

@@ -2,6 +2,10 @@
 // std::array instead of pointers, exceptions instead of statuses. Everything is
 // inline; link against the same library as for C.
 //
+// Arrays are handed in as views: of a std::vector, std::array, std::span, C array, pointer and
+// length, or a list in braces. Nothing is allocated beyond what is given back, but small arrays of
+// pointers by the calls for many bodies at once, and scratch by labels() and from_silhouettes().
+//
 // Options and results are the structs of morula.h: morula::ClumpOptions is
 // morula_clump_options filled with the defaults, and so on.
 #ifndef MORULA_HPP
@@ -10,12 +14,16 @@
 #include "morula.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <functional>
+#include <initializer_list>
+#include <iterator>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -39,15 +47,82 @@ inline void check(std::int32_t status) {
   if (status != MORULA_STATUS_OK) throw Error(status, morula_last_error_message());
 }
 
+/// The version of the library: 1000000 major + 1000 minor + patch, and as text.
+inline std::uint32_t version() noexcept { return morula_version(); }
+inline const char *version_string() noexcept { return morula_version_string(); }
+/// The word for a MORULA_STOPPED_* number, and for a MORULA_MASSES_* number.
+inline const char *stopped_name(std::int32_t stopped) noexcept {
+  return morula_stopped_name(stopped);
+}
+inline const char *masses_name(std::int32_t status) noexcept {
+  return morula_masses_status_name(status);
+}
+
 /// A component sphere.
 struct Sphere {
   std::array<double, 3> center;
   double radius;
 };
+// The library reads and writes arrays of them in place.
+static_assert(sizeof(Sphere) == 4 * sizeof(double) && std::is_standard_layout_v<Sphere>);
 
-/// Called with the fraction done; return false to cancel. It may throw: the
-/// call is then cancelled and the exception goes on to the caller.
-using Progress = std::function<bool(double)>;
+/// Elements one after another, which something else holds: valid for the time of a call. A
+/// std::span converts to it, and it to one.
+template <class T>
+class View {
+ public:
+  constexpr View() noexcept = default;
+  constexpr View(const T *data, std::size_t size) noexcept : data_(data), size_(size) {}
+  /// Of anything contiguous that holds T.
+  template <class C, class = std::enable_if_t<std::is_convertible_v<
+                         std::remove_pointer_t<decltype(std::data(std::declval<const C &>()))> (*)[],
+                         const T (*)[]>>>
+  constexpr View(const C &from) noexcept : View(std::data(from), std::size(from)) {}
+  constexpr View(std::initializer_list<T> list) noexcept : View(list.begin(), list.size()) {}
+
+  constexpr const T *data() const noexcept { return data_; }
+  constexpr std::size_t size() const noexcept { return size_; }
+  constexpr bool empty() const noexcept { return size_ == 0; }
+  constexpr const T *begin() const noexcept { return data_; }
+  constexpr const T *end() const noexcept { return data_ + size_; }
+  constexpr const T &operator[](std::size_t i) const noexcept { return data_[i]; }
+
+ private:
+  const T *data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+/// Any callable that is called with the fraction done and returns false to cancel. It is referred
+/// to, not copied: it must live as long as the call. It may throw: the call is then cancelled and
+/// the exception goes on to the caller.
+class Progress {
+ public:
+  Progress() noexcept = default;
+  Progress(std::nullptr_t) noexcept {}
+  Progress(bool (*function)(double)) noexcept : function_(function) {}
+  template <class F, class G = std::remove_reference_t<F>,
+            class = std::enable_if_t<!std::is_same_v<std::remove_cv_t<G>, Progress> &&
+                                     std::is_class_v<G> && std::is_invocable_r_v<bool, G &, double>>>
+  Progress(F &&callable) noexcept {
+    // An empty std::function is none.
+    if constexpr (std::is_constructible_v<bool, G &> &&
+                  !std::is_convertible_v<G &, bool (*)(double)>) {
+      if (!static_cast<bool>(callable)) return;
+    }
+    object_ = const_cast<void *>(static_cast<const void *>(std::addressof(callable)));
+    call_ = [](void *object, double fraction) -> bool { return (*static_cast<G *>(object))(fraction); };
+  }
+
+  explicit operator bool() const noexcept { return call_ || function_; }
+  bool operator()(double fraction) const {
+    return call_ ? call_(object_, fraction) : function_(fraction);
+  }
+
+ private:
+  void *object_ = nullptr;
+  bool (*call_)(void *, double) = nullptr;
+  bool (*function_)(double) = nullptr;
+};
 
 namespace detail {
 
@@ -86,9 +161,8 @@ template <class Copy>
 std::string text(Copy copy) {
   std::size_t length = 0;
   check(copy(0, nullptr, &length));
-  std::string text(length + 1, '\0');
-  check(copy(text.size(), &text[0], nullptr));
-  text.resize(length);
+  std::string text(length, '\0');
+  check(copy(length + 1, text.data(), nullptr));  // the last is the string's own NUL
   return text;
 }
 
@@ -97,6 +171,7 @@ std::vector<std::string> texts(Count count, Copy copy) {
   std::size_t n = 0;
   check(count(&n));
   std::vector<std::string> all;
+  all.reserve(n);
   for (std::size_t i = 0; i < n; ++i)
     all.push_back(text([&](std::size_t capacity, char *to, std::size_t *length) {
       return copy(i, capacity, to, length);
@@ -104,7 +179,7 @@ std::vector<std::string> texts(Count count, Copy copy) {
   return all;
 }
 
-/// Keeps a std::function for the time of a call, and an exception that it threw.
+/// Keeps a callable for the time of a call, and an exception that it threw.
 struct Callback {
   Progress progress;
   std::exception_ptr thrown;
@@ -128,7 +203,7 @@ struct Callback {
 /// Runs a call that makes a handle, with the progress function if there is one.
 template <class T, class Options, class Make>
 Handle<T> made(Options options, Progress progress, Make make) {
-  Callback callback{std::move(progress), nullptr};
+  Callback callback{progress, nullptr};
   callback.enter(options);
   T *raw = nullptr;
   const std::int32_t status = make(options, &raw);
@@ -148,20 +223,37 @@ std::vector<std::uint8_t> bytes(Write write) {
   return all;
 }
 
-/// x, y, z, r of each.
-inline std::vector<double> flat(const std::vector<Sphere> &spheres) {
-  std::vector<double> xyzr;
-  for (const auto &s : spheres)
-    xyzr.insert(xyzr.end(), {s.center[0], s.center[1], s.center[2], s.radius});
-  return xyzr;
+/// x, y, z, r of each, in place.
+inline const double *flat(View<Sphere> spheres) {
+  return spheres.empty() ? nullptr : spheres[0].center.data();
 }
-inline std::vector<Sphere> spheres(const std::vector<double> &xyzr) {
-  std::vector<Sphere> all;
-  for (std::size_t i = 0; i < xyzr.size(); i += 4)
-    all.push_back({{xyzr[i], xyzr[i + 1], xyzr[i + 2]}, xyzr[i + 3]});
+/// As many spheres, filled by `copy(count, xyzr)`.
+template <class Copy>
+std::vector<Sphere> spheres(std::size_t count, Copy copy) {
+  std::vector<Sphere> all(count);
+  check(copy(count, all.empty() ? nullptr : all[0].center.data()));
   return all;
 }
 }  // namespace detail
+
+/// Sets where the lines of the log go, for the whole program: sink(level, text), with one of
+/// MORULA_LOG_*. It is kept, may be called from several threads, and what it throws is dropped.
+/// Call this while no other call runs.
+template <class Sink>
+void set_log(Sink sink) {
+  static std::optional<Sink> kept;
+  kept.emplace(std::move(sink));
+  check(morula_set_log(
+      [](std::int32_t level, const char *text, void *user) {
+        try {
+          (*static_cast<Sink *>(user))(level, text);
+        } catch (...) {
+        }
+      },
+      &*kept));
+}
+/// No log any more.
+inline void set_log(std::nullptr_t) { check(morula_set_log(nullptr, nullptr)); }
 
 /// morula_import_options with the defaults.
 struct ImportOptions : morula_import_options {
@@ -194,6 +286,9 @@ struct Layout {
   }
 };
 
+/// A parameter of a built-in particle: {"radius", 2.0}.
+using Parameter = std::pair<std::string, double>;
+
 /// What one camera sees of a particle: not 0 where a pixel shows it, row by row; the 3 x 4 camera
 /// matrix by rows.
 struct Silhouette {
@@ -207,12 +302,12 @@ struct Silhouette {
 class Shape {
  public:
   /// From x, y, z of the vertices and three indices for each triangle.
-  static Shape from_mesh(const std::vector<double> &vertices,
-                         const std::vector<std::uint32_t> &triangles,
+  static Shape from_mesh(View<double> vertices,
+                         View<std::uint32_t> triangles,
                          const ImportOptions &options = {}, Progress progress = {}) {
     if (vertices.size() % 3 != 0 || triangles.size() % 3 != 0)
       throw Error(MORULA_STATUS_INVALID_ARGUMENT, "vertices and triangles come in threes");
-    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+    return make(options, progress, [&](const auto &o, morula_shape **out) {
       return morula_shape_from_mesh(vertices.data(), vertices.size() / 3, triangles.data(),
                                     triangles.size() / 3, &o, out);
     });
@@ -220,20 +315,20 @@ class Shape {
   /// From a file.
   static Shape from_file(const std::string &path, const ImportOptions &options = {},
                          const FileOptions &file = {}, Progress progress = {}) {
-    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+    return make(options, progress, [&](const auto &o, morula_shape **out) {
       return morula_shape_from_file(path.c_str(), &o, &file, out);
     });
   }
   /// From the bytes of a file; `name` helps where they do not tell the format.
-  static Shape from_bytes(const std::vector<std::uint8_t> &bytes, const std::string &name = {},
+  static Shape from_bytes(View<std::uint8_t> bytes, const std::string &name = {},
                           const ImportOptions &options = {}, const FileOptions &file = {},
                           Progress progress = {}) {
-    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+    return make(options, progress, [&](const auto &o, morula_shape **out) {
       return morula_shape_from_bytes(bytes.data(), bytes.size(), name.c_str(), &o, &file, out);
     });
   }
   /// What serialize() gave, to the last bit.
-  static Shape deserialize(const std::vector<std::uint8_t> &bytes) {
+  static Shape deserialize(View<std::uint8_t> bytes) {
     morula_shape *raw = nullptr;
     check(morula_shape_deserialize(bytes.data(), bytes.size(), &raw));
     return Shape(detail::Handle<morula_shape>(raw));
@@ -245,16 +340,16 @@ class Shape {
     });
   }
   /// From voxels: those that are not 0 are solid.
-  static Shape from_mask(const std::vector<std::uint8_t> &mask, const Layout &layout,
+  static Shape from_mask(View<std::uint8_t> mask, const Layout &layout,
                          const ImportOptions &options = {}, Progress progress = {}) {
     layout.require(mask.size());
-    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+    return make(options, progress, [&](const auto &o, morula_shape **out) {
       return morula_shape_from_mask(mask.data(), layout.dims.data(), layout.spacing.data(),
                                     layout.origin.data(), &o, out);
     });
   }
   /// The visual hull of silhouettes, `cells` along its longest edge; carve is MORULA_CARVE_*.
-  static Shape from_silhouettes(const std::vector<Silhouette> &silhouettes, std::size_t cells = 64,
+  static Shape from_silhouettes(View<Silhouette> silhouettes, std::size_t cells = 64,
                                 std::int32_t carve = MORULA_CARVE_TOUCHED,
                                 const ImportOptions &options = {}, Progress progress = {}) {
     std::vector<std::uint8_t> masks;
@@ -269,28 +364,33 @@ class Shape {
       heights.push_back(s.height);
       cameras.insert(cameras.end(), s.camera.begin(), s.camera.end());
     }
-    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+    return make(options, progress, [&](const auto &o, morula_shape **out) {
       return morula_shape_from_silhouettes(widths.size(), masks.data(), widths.data(),
                                            heights.data(), cameras.data(), cells, carve, &o, out);
     });
   }
   /// From grey values; solid above *threshold, or above Otsu's threshold for a null pointer.
-  template <class T>
-  static Shape from_grey(const std::vector<T> &values, const Layout &layout,
+  static Shape from_grey(View<std::uint8_t> values, const Layout &layout,
                          const double *threshold = nullptr, const ImportOptions &options = {},
                          Progress progress = {}) {
-    layout.require(values.size());
-    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
-      return grey(values.data(), layout.dims.data(), layout.spacing.data(), layout.origin.data(),
-                  threshold, &o, out);
-    });
+    return grey(morula_shape_from_grey_u8, values, layout, threshold, options, progress);
+  }
+  static Shape from_grey(View<std::uint16_t> values, const Layout &layout,
+                         const double *threshold = nullptr, const ImportOptions &options = {},
+                         Progress progress = {}) {
+    return grey(morula_shape_from_grey_u16, values, layout, threshold, options, progress);
+  }
+  static Shape from_grey(View<float> values, const Layout &layout,
+                         const double *threshold = nullptr, const ImportOptions &options = {},
+                         Progress progress = {}) {
+    return grey(morula_shape_from_grey_f32, values, layout, threshold, options, progress);
   }
   /// From one label of a label volume.
-  static Shape from_label(const std::vector<std::uint32_t> &labels, const Layout &layout,
+  static Shape from_label(View<std::uint32_t> labels, const Layout &layout,
                           std::uint32_t label, const ImportOptions &options = {},
                           Progress progress = {}) {
     layout.require(labels.size());
-    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
+    return make(options, progress, [&](const auto &o, morula_shape **out) {
       return morula_shape_from_label(labels.data(), layout.dims.data(), layout.spacing.data(),
                                      layout.origin.data(), label, &o, out);
     });
@@ -298,18 +398,20 @@ class Shape {
   /// A built-in analytic particle; `parameters` as {"radius", 2.0}. The particles and what their
   /// parameters mean: the table at morula_shape_from_primitive() in morula.h.
   static Shape from_primitive(const std::string &name,
-                              const std::vector<std::pair<std::string, double>> &parameters = {},
-                              std::uint32_t segments = 0, std::uint64_t seed = 0,
-                              const ImportOptions &options = {}, Progress progress = {}) {
-    std::vector<const char *> keys;
-    std::vector<double> values;
-    for (const auto &parameter : parameters) {
-      keys.push_back(parameter.first.c_str());
-      values.push_back(parameter.second);
+                              View<Parameter> parameters = {}, std::uint32_t segments = 0,
+                              std::uint64_t seed = 0, const ImportOptions &options = {},
+                              Progress progress = {}) {
+    std::array<const char *, 16> keys{};
+    std::array<double, 16> values{};
+    if (parameters.size() > keys.size())
+      throw Error(MORULA_STATUS_INVALID_ARGUMENT, "no particle has so many parameters");
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      keys[i] = parameters[i].first.c_str();
+      values[i] = parameters[i].second;
     }
-    return make(options, std::move(progress), [&](const auto &o, morula_shape **out) {
-      return morula_shape_from_primitive(name.c_str(), keys.data(), values.data(), keys.size(),
-                                         segments, seed, &o, out);
+    return make(options, progress, [&](const auto &o, morula_shape **out) {
+      return morula_shape_from_primitive(name.c_str(), keys.data(), values.data(),
+                                         parameters.size(), segments, seed, &o, out);
     });
   }
 
@@ -344,22 +446,44 @@ class Shape {
   explicit Shape(detail::Handle<morula_shape> handle) : handle_(std::move(handle)) {}
   template <class Make>
   static Shape make(const ImportOptions &options, Progress progress, Make call) {
-    return Shape(detail::made<morula_shape>(options, std::move(progress), call));
+    return Shape(detail::made<morula_shape>(options, progress, call));
   }
-  template <class... Args>
-  static std::int32_t grey(const std::uint8_t *v, Args... rest) {
-    return morula_shape_from_grey_u8(v, rest...);
-  }
-  template <class... Args>
-  static std::int32_t grey(const std::uint16_t *v, Args... rest) {
-    return morula_shape_from_grey_u16(v, rest...);
-  }
-  template <class... Args>
-  static std::int32_t grey(const float *v, Args... rest) {
-    return morula_shape_from_grey_f32(v, rest...);
+  template <class T, class Make>
+  static Shape grey(Make from_grey, View<T> values, const Layout &layout, const double *threshold,
+                    const ImportOptions &options, Progress progress) {
+    layout.require(values.size());
+    return make(options, progress, [&](const auto &o, morula_shape **out) {
+      return from_grey(values.data(), layout.dims.data(), layout.spacing.data(),
+                       layout.origin.data(), threshold, &o, out);
+    });
   }
   detail::Handle<morula_shape> handle_;
 };
+
+/// A built-in analytic particle with its parameters and their defaults.
+struct Primitive {
+  std::string name;
+  std::vector<Parameter> parameters;
+};
+
+/// The built-in analytic particles.
+inline std::vector<Primitive> primitives() {
+  std::vector<Primitive> all;
+  for (std::size_t k = 0; const char *name = morula_primitive_name(k); ++k) {
+    std::size_t count = 0;
+    check(morula_primitive_parameter_count(name, &count));
+    Primitive primitive{name, {}};
+    for (std::size_t i = 0; i < count; ++i) {
+      double value = 0;
+      std::string key = detail::text([&](std::size_t capacity, char *to, std::size_t *length) {
+        return morula_primitive_copy_parameter(name, i, capacity, to, length, &value);
+      });
+      primitive.parameters.emplace_back(std::move(key), value);
+    }
+    all.push_back(std::move(primitive));
+  }
+  return all;
+}
 
 /// What a label volume holds of one label.
 struct Label {
@@ -390,7 +514,7 @@ std::vector<Label> labels(List list) {
 }  // namespace detail
 
 /// The labels of a volume, ascending, without 0.
-inline std::vector<Label> labels(const std::vector<std::uint32_t> &volume, const Layout &layout) {
+inline std::vector<Label> labels(View<std::uint32_t> volume, const Layout &layout) {
   layout.require(volume.size());
   return detail::labels([&](std::size_t n, std::uint32_t *ids, std::uint64_t *cells,
                             std::uint64_t *boxes, std::int32_t *touches, std::size_t *count) {
@@ -410,7 +534,7 @@ inline std::vector<Label> labels_from_file(const std::string &path,
 }
 
 /// The same of the bytes of a file; `name` helps where they do not tell the format.
-inline std::vector<Label> labels_from_bytes(const std::vector<std::uint8_t> &bytes,
+inline std::vector<Label> labels_from_bytes(View<std::uint8_t> bytes,
                                             const std::string &name = {},
                                             const ImportOptions &options = {},
                                             const FileOptions &file = {}) {
@@ -425,7 +549,7 @@ class Solid {
  public:
   explicit Solid(const Shape &shape, const SolidOptions &options = {}, Progress progress = {})
       : handle_(detail::made<morula_solid>(
-            options, std::move(progress), [&](const auto &o, morula_solid **out) {
+            options, progress, [&](const auto &o, morula_solid **out) {
               return morula_solid_from_shape(shape.get(), &o, out);
             })) {}
 
@@ -437,7 +561,7 @@ class Solid {
     return layout;
   }
   /// Exact signed distances, negative inside; x, y, z of each point.
-  std::vector<double> distance(const std::vector<double> &points) const {
+  std::vector<double> distance(View<double> points) const {
     if (points.size() % 3 != 0)
       throw Error(MORULA_STATUS_INVALID_ARGUMENT, "points come in threes");
     std::vector<double> distances(points.size() / 3);
@@ -471,19 +595,19 @@ class Clump {
  public:
   explicit Clump(const Solid &solid, const ClumpOptions &options = {}, Progress progress = {})
       : handle_(detail::made<morula_clump>(
-            options, std::move(progress), [&](const auto &o, morula_clump **out) {
+            options, progress, [&](const auto &o, morula_clump **out) {
               return morula_clump_from_solid(solid.get(), &o, out);
             })) {}
   /// Makes the solid inside.
   explicit Clump(const Shape &shape, const ClumpOptions &options = {},
                  const SolidOptions &solid = {}, Progress progress = {})
       : handle_(detail::made<morula_clump>(
-            options, std::move(progress), [&](const auto &o, morula_clump **out) {
+            options, progress, [&](const auto &o, morula_clump **out) {
               return morula_clump_from_shape(shape.get(), &solid, &o, out);
             })) {}
 
   /// What serialize() gave, to the last bit; its counters are 0.
-  static Clump deserialize(const std::vector<std::uint8_t> &bytes) {
+  static Clump deserialize(View<std::uint8_t> bytes) {
     morula_clump *raw = nullptr;
     check(morula_clump_deserialize(bytes.data(), bytes.size(), &raw));
     return Clump(detail::Handle<morula_clump>(raw));
@@ -502,12 +626,9 @@ class Clump {
   }
   /// The spheres in the frame that the options asked for.
   std::vector<Sphere> spheres() const {
-    std::vector<double> xyzr(4 * size());
-    check(morula_clump_copy_spheres(get(), xyzr.size() / 4, xyzr.data()));
-    std::vector<Sphere> all;
-    for (std::size_t i = 0; i < xyzr.size(); i += 4)
-      all.push_back({{xyzr[i], xyzr[i + 1], xyzr[i + 2]}, xyzr[i + 3]});
-    return all;
+    return detail::spheres(size(), [&](std::size_t n, double *xyzr) {
+      return morula_clump_copy_spheres(get(), n, xyzr);
+    });
   }
   /// One of MORULA_STOPPED_*.
   std::int32_t stopped() const {
@@ -555,21 +676,21 @@ class Clump {
   const morula_clump *get() const noexcept { return handle_.get(); }
 
   /// Levels of detail: a clump with each of these numbers of spheres, in this order.
-  static std::vector<Clump> levels(const Solid &solid, const std::vector<std::uint64_t> &spheres,
+  static std::vector<Clump> levels(const Solid &solid, View<std::uint64_t> spheres,
                                    const ClumpOptions &options = {}, Progress progress = {}) {
-    return many(spheres.size(), options, std::move(progress),
+    return many(spheres.size(), options, progress,
                 [&](const auto &o, morula_clump **out) {
                   return morula_clumps_from_solid(solid.get(), &o, spheres.data(),
                                                   spheres.size(), out);
                 });
   }
   /// A clump of each shape, which threads share; throws for the first that fails.
-  static std::vector<Clump> of_shapes(const std::vector<const Shape *> &shapes,
+  static std::vector<Clump> of_shapes(View<const Shape *> shapes,
                                       const ClumpOptions &options = {},
                                       const SolidOptions &solid = {}, Progress progress = {}) {
     std::vector<const morula_shape *> handles;
     for (const auto *shape : shapes) handles.push_back(shape ? shape->get() : nullptr);
-    return many(shapes.size(), options, std::move(progress),
+    return many(shapes.size(), options, progress,
                 [&](const auto &o, morula_clump **out) {
                   return morula_clumps_from_shapes(handles.data(), handles.size(), &solid, &o,
                                                    out, nullptr);
@@ -577,14 +698,14 @@ class Clump {
   }
   /// A clump of each of these labels of a label volume, which threads share; throws for the
   /// first that fails.
-  static std::vector<Clump> of_labels(const std::vector<std::uint32_t> &labels,
+  static std::vector<Clump> of_labels(View<std::uint32_t> labels,
                                       const Layout &layout,
-                                      const std::vector<std::uint32_t> &wanted,
+                                      View<std::uint32_t> wanted,
                                       const ClumpOptions &options = {},
                                       const ImportOptions &import = {},
                                       const SolidOptions &solid = {}, Progress progress = {}) {
     layout.require(labels.size());
-    return many(wanted.size(), options, std::move(progress),
+    return many(wanted.size(), options, progress,
                 [&](const auto &o, morula_clump **out) {
                   return morula_clumps_from_labels(
                       labels.data(), layout.dims.data(), layout.spacing.data(),
@@ -599,7 +720,7 @@ class Clump {
   template <class Make>
   static std::vector<Clump> many(std::size_t count, ClumpOptions options, Progress progress,
                                  Make make) {
-    detail::Callback callback{std::move(progress), nullptr};
+    detail::Callback callback{progress, nullptr};
     callback.enter(options);
     std::vector<Clump> all;
     all.reserve(count);
@@ -638,18 +759,15 @@ class Body {
  public:
   explicit Body(const Clump &clump, const MassOptions &options = {}, Progress progress = {})
       : handle_(detail::made<morula_body>(
-            options, std::move(progress), [&](const auto &o, morula_body **out) {
+            options, progress, [&](const auto &o, morula_body **out) {
               return morula_body_from_clump(clump.get(), &o, out);
             })) {}
   /// Spheres that were made elsewhere, in the frame of `solid`, or with NULL their union.
-  explicit Body(const std::vector<Sphere> &spheres, const Solid *solid = nullptr,
+  explicit Body(View<Sphere> spheres, const Solid *solid = nullptr,
                 const MassOptions &options = {}, Progress progress = {}) {
-    std::vector<double> xyzr;
-    for (const auto &s : spheres)
-      xyzr.insert(xyzr.end(), {s.center[0], s.center[1], s.center[2], s.radius});
     handle_ = detail::made<morula_body>(
-        options, std::move(progress), [&](const auto &o, morula_body **out) {
-          return morula_body_from_spheres(xyzr.data(), spheres.size(),
+        options, progress, [&](const auto &o, morula_body **out) {
+          return morula_body_from_spheres(detail::flat(spheres), spheres.size(),
                                           solid ? solid->get() : nullptr, &o, out);
         });
   }
@@ -661,12 +779,9 @@ class Body {
   }
   /// The spheres in a frame, one of MORULA_FRAME_*.
   std::vector<Sphere> spheres(std::int32_t frame = MORULA_FRAME_INPUT) const {
-    std::vector<double> xyzr(4 * size());
-    check(morula_body_copy_spheres(get(), frame, xyzr.size() / 4, xyzr.data()));
-    std::vector<Sphere> all;
-    for (std::size_t i = 0; i < xyzr.size(); i += 4)
-      all.push_back({{xyzr[i], xyzr[i + 1], xyzr[i + 2]}, xyzr[i + 3]});
-    return all;
+    return detail::spheres(size(), [&](std::size_t n, double *xyzr) {
+      return morula_body_copy_spheres(get(), frame, n, xyzr);
+    });
   }
   /// x, y, z, r of each for codes of single precision, each within the sphere it stands for.
   std::vector<float> spheres_f32(std::int32_t frame = MORULA_FRAME_BODY) const {
@@ -737,9 +852,33 @@ class Body {
   const morula_body *get() const noexcept { return handle_.get(); }
 
  private:
+  friend Body transform(const Clump &, double, const std::array<double, 3> &,
+                        const std::array<double, 4> &, const MassOptions &);
   explicit Body(detail::Handle<morula_body> handle) : handle_(std::move(handle)) {}
   detail::Handle<morula_body> handle_;
 };
+
+/// A clump weighed and placed in one call, as Body(clump, masses).transform().
+inline Body transform(const Clump &clump, double scale, const std::array<double, 3> &position = {},
+                      const std::array<double, 4> &quaternion = {1, 0, 0, 0},
+                      const MassOptions &masses = {}) {
+  morula_body *raw = nullptr;
+  check(morula_clump_transform(clump.get(), &masses, scale, position.data(), quaternion.data(),
+                               &raw));
+  return Body(detail::Handle<morula_body>(raw));
+}
+/// The time step that a clump allows, weighed in the same call.
+inline morula_timestep timestep(const Clump &clump, const ContactOptions &contact,
+                                const MassOptions &masses = {}) {
+  return detail::filled<morula_timestep>([&](morula_timestep *t) {
+    return morula_clump_timestep(clump.get(), &masses, &contact, t);
+  });
+}
+/// Weighs a clump and writes it in a format, one of MORULA_EXPORT_*.
+inline void write(const Clump &clump, std::int32_t format, const std::string &path,
+                  const MassOptions &masses = {}, const ExportOptions &options = {}) {
+  check(morula_clump_write(clump.get(), &masses, format, &options, path.c_str()));
+}
 
 /// morula_break_options with the defaults.
 struct BreakOptions : morula_break_options {
@@ -769,11 +908,10 @@ class Parent {
     handle_.reset(raw);
   }
   /// Spheres that were made elsewhere, in the frame of the solid; there may be none.
-  explicit Parent(const Solid &solid, const std::vector<Sphere> &spheres = {},
+  explicit Parent(const Solid &solid, View<Sphere> spheres = {},
                   std::int32_t threads = 1) {
     morula_parent *raw = nullptr;
-    const auto xyzr = detail::flat(spheres);
-    check(morula_parent_from_solid(solid.get(), xyzr.data(), spheres.size(), threads, &raw));
+    check(morula_parent_from_solid(solid.get(), detail::flat(spheres), spheres.size(), threads, &raw));
     handle_.reset(raw);
   }
 
@@ -813,12 +951,12 @@ class Cache {
     handle_.reset(raw);
   }
   /// The parent that was made before of the same shape, grid and spheres, else a new one.
-  Parent parent(const Shape &shape, const std::vector<Sphere> &spheres = {},
+  Parent parent(const Shape &shape, View<Sphere> spheres = {},
                 const SolidOptions &options = {}, Progress progress = {}) const {
-    const auto xyzr = detail::flat(spheres);
     return Parent(detail::made<morula_parent>(
-        options, std::move(progress), [&](const auto &o, morula_parent **out) {
-          return morula_cache_parent(get(), shape.get(), &o, xyzr.data(), spheres.size(), out);
+        options, progress, [&](const auto &o, morula_parent **out) {
+          return morula_cache_parent(get(), shape.get(), &o, detail::flat(spheres), spheres.size(),
+                                     out);
         }));
   }
   /// What it has done, and what it holds.
@@ -847,42 +985,41 @@ class Fragments {
   Fragments(const Parent &parent, const Held &held, const BreakOptions &options = {},
             Progress progress = {})
       : handle_(detail::made<morula_fragments>(
-            options, std::move(progress), [&](const auto &o, morula_fragments **out) {
+            options, progress, [&](const auto &o, morula_fragments **out) {
               return morula_parent_break(parent.get(), nullptr, 0, &held, &o, out);
             })) {}
   /// Fragment `index` of an earlier break breaks again.
   Fragments(const Fragments &from, std::size_t index, const Held &held,
             const BreakOptions &options = {}, Progress progress = {})
       : handle_(detail::made<morula_fragments>(
-            options, std::move(progress), [&](const auto &o, morula_fragments **out) {
+            options, progress, [&](const auto &o, morula_fragments **out) {
               return morula_parent_break(nullptr, from.get(), index, &held, &o, out);
             })) {}
   /// The pieces of a label volume, as a fracture model gives them; `spheres` are those of the body.
-  static Fragments from_labels(const std::vector<std::uint32_t> &labels, const Layout &layout,
-                               const std::vector<Sphere> &spheres, const Held &held,
+  static Fragments from_labels(View<std::uint32_t> labels, const Layout &layout,
+                               View<Sphere> spheres, const Held &held,
                                const BreakOptions &options = {}, const SolidOptions &grid = {},
                                Progress progress = {}) {
     layout.require(labels.size());
-    const auto xyzr = detail::flat(spheres);
     return Fragments(detail::made<morula_fragments>(
-        options, std::move(progress), [&](const auto &o, morula_fragments **out) {
+        options, progress, [&](const auto &o, morula_fragments **out) {
           return morula_fragments_from_labels(labels.data(), layout.dims.data(),
                                               layout.spacing.data(), layout.origin.data(), &grid,
-                                              xyzr.data(), spheres.size(), &held, &o, out);
+                                              detail::flat(spheres), spheres.size(), &held, &o,
+                                              out);
         }));
   }
   /// New spheres for a shape that has changed, from the old ones.
-  static Fragments reclump_shape(const Solid &solid, const std::vector<Sphere> &old,
+  static Fragments reclump_shape(const Solid &solid, View<Sphere> old,
                                  const Held &held, const BreakOptions &options = {},
                                  Progress progress = {}) {
-    const auto xyzr = detail::flat(old);
     return Fragments(detail::made<morula_fragments>(
-        options, std::move(progress), [&](const auto &o, morula_fragments **out) {
-          return morula_reclump_shape(solid.get(), xyzr.data(), old.size(), &held, &o, out);
+        options, progress, [&](const auto &o, morula_fragments **out) {
+          return morula_reclump_shape(solid.get(), detail::flat(old), old.size(), &held, &o, out);
         }));
   }
   /// What serialize() gave, as fragment 0, beside a parent of the same shape and grid.
-  static Fragments deserialize(const Parent &parent, const std::vector<std::uint8_t> &bytes,
+  static Fragments deserialize(const Parent &parent, View<std::uint8_t> bytes,
                                const Held &held) {
     morula_fragments *raw = nullptr;
     check(morula_fragments_deserialize(parent.get(), bytes.data(), bytes.size(), &held, &raw));
@@ -896,9 +1033,9 @@ class Fragments {
   }
   /// All breaks of one time step, which threads (those of the first options) share; throws for the
   /// first that fails.
-  static std::vector<Fragments> of_parents(const std::vector<const Parent *> &parents,
-                                           const std::vector<Held> &held,
-                                           const std::vector<BreakOptions> &options) {
+  static std::vector<Fragments> of_parents(View<const Parent *> parents,
+                                           View<Held> held,
+                                           View<BreakOptions> options) {
     if (held.size() != parents.size() || options.size() != parents.size())
       throw Error(MORULA_STATUS_INVALID_ARGUMENT, "a held body and options for each parent");
     std::vector<const morula_parent *> handles;
@@ -952,18 +1089,17 @@ class Fragments {
   }
   /// The spheres in a frame, one of MORULA_FRAME_*.
   std::vector<Sphere> spheres(std::size_t index, std::int32_t frame = MORULA_FRAME_INPUT) const {
-    std::vector<double> xyzr(4 * (*this)[index].sphere_count);
-    check(morula_fragments_copy_spheres(get(), index, frame, xyzr.size() / 4, xyzr.data()));
-    return detail::spheres(xyzr);
+    return detail::spheres((*this)[index].sphere_count, [&](std::size_t n, double *xyzr) {
+      return morula_fragments_copy_spheres(get(), index, frame, n, xyzr);
+    });
   }
   /// The same, grown by a part from 0 to 1 as far as the others, in that frame, leave room.
-  std::vector<Sphere> grown(std::size_t index, double part, const std::vector<Sphere> &others,
+  std::vector<Sphere> grown(std::size_t index, double part, View<Sphere> others,
                             double gap = 0, std::int32_t frame = MORULA_FRAME_INPUT) const {
-    const auto near = detail::flat(others);
-    std::vector<double> xyzr(4 * (*this)[index].sphere_count);
-    check(morula_fragments_grow(get(), index, part, near.data(), others.size(), gap, frame,
-                                xyzr.size() / 4, xyzr.data()));
-    return detail::spheres(xyzr);
+    return detail::spheres((*this)[index].sphere_count, [&](std::size_t n, double *xyzr) {
+      return morula_fragments_grow(get(), index, part, detail::flat(others), others.size(), gap,
+                                   frame, n, xyzr);
+    });
   }
   /// The mass of each sphere.
   std::vector<double> masses(std::size_t index) const {
@@ -1030,7 +1166,7 @@ class Cost {
   explicit Cost(const Solid &solid, const ClumpOptions &options = {}, const CostOptions &cost = {},
                 Progress progress = {})
       : handle_(detail::made<morula_cost>(
-            options, std::move(progress), [&](const auto &o, morula_cost **out) {
+            options, progress, [&](const auto &o, morula_cost **out) {
               return morula_cost_curve(solid.get(), &o, &cost, out);
             })) {}
 
@@ -1093,9 +1229,10 @@ class Sweep {
                  const ClumpOptions &options = {}, const CostOptions &cost = {},
                  Progress progress = {})
       : handle_(detail::made<morula_sweep>(
-            options, std::move(progress), [&](const auto &o, morula_sweep **out) {
+            options, progress, [&](const auto &o, morula_sweep **out) {
               if (!over.efforts.empty() && over.efforts.size() != over.methods.size())
-                throw std::invalid_argument("a sweep needs as many efforts as methods, or none");
+                throw Error(MORULA_STATUS_INVALID_ARGUMENT,
+                            "a sweep needs as many efforts as methods, or none");
               auto what = detail::defaults(morula_sweep_options_init);
               what.resolutions = over.resolutions.data();
               what.resolution_count = over.resolutions.size();
@@ -1135,11 +1272,8 @@ class Sweep {
 /// Rotations (w, x, y, z) drawn evenly from all: the same for the same seed.
 inline std::vector<std::array<double, 4>> random_orientations(std::uint64_t seed,
                                                               std::size_t count) {
-  std::vector<double> flat(4 * count);
-  check(morula_random_orientations(seed, count, flat.data()));
-  std::vector<std::array<double, 4>> all;
-  for (std::size_t i = 0; i < flat.size(); i += 4)
-    all.push_back({flat[i], flat[i + 1], flat[i + 2], flat[i + 3]});
+  std::vector<std::array<double, 4>> all(count);
+  check(morula_random_orientations(seed, count, all.empty() ? nullptr : all[0].data()));
   return all;
 }
 

@@ -39,12 +39,12 @@ static void holds(const morula::Body &body) {
     sum += masses[i];
     first += masses[i] * c[0];
     products += masses[i] * c[0] * c[1];
-    for (int k = 0; k < 3; ++k) moments[k] += masses[i] * (own - c[k] * c[k]);
+    for (std::size_t k = 0; k < 3; ++k) moments[k] += masses[i] * (own - c[k] * c[k]);
   }
   CHECK(std::fabs(sum / m.mass - 1) < 1e-10);
   CHECK(std::fabs(first) < 1e-9 * m.mass * std::cbrt(m.volume));
   CHECK(std::fabs(products) < 1e-9 * m.principal[2]);
-  for (int k = 0; k < 3; ++k) CHECK(std::fabs(moments[k] / m.principal[k] - 1) < 1e-9);
+  for (std::size_t k = 0; k < 3; ++k) CHECK(std::fabs(moments[k] / m.principal[k] - 1) < 1e-9);
 }
 
 int main() {

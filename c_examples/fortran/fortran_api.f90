@@ -41,11 +41,10 @@ contains
     cancel = merge(1_c_int32_t, 2_c_int32_t, fraction > 2 .or. c_associated(user))
   end function stop_at_once
 
-  subroutine sink(level, text, user) bind(c)
-    integer(c_int32_t), value :: level
-    type(c_ptr), value :: text, user
-    call check(level >= 0 .and. len(morula_text(text)) > 0, 'a line of log')
-    call check(.not. c_associated(user), 'user data of the log')
+  subroutine sink(level, text)
+    integer(c_int32_t), intent(in) :: level
+    character(*), intent(in) :: text
+    call check(level >= 0 .and. len(text) > 0, 'a line of log')
     lines = lines + 1
   end subroutine sink
 
@@ -186,10 +185,8 @@ contains
     integer(c_int8_t), allocatable :: bytes(:)
     character(:), allocatable :: text, off
     character(len=6) :: keys(1)
-    character(kind=c_char), target :: key(64)
-    integer(c_size_t) :: n, length
     real(c_double) :: value
-    integer :: i, k, unit
+    integer :: i, j, k, unit
 
     call l_mesh(vertices, triangles)
     call s%create_from_mesh(vertices, triangles)
@@ -304,13 +301,13 @@ contains
     ! Built-in particles and their parameters.
     i = 1
     do while (len(morula_name_of_primitive(i)) > 0)
-      text = morula_name_of_primitive(i) // c_null_char
-      n = 0
-      call check(morula_primitive_parameter_count(text, n) == MORULA_STATUS_OK, 'parameter count')
-      length = 0
-      call check(morula_primitive_copy_parameter(text, 0_c_size_t, size(key, kind=c_size_t), &
-        c_loc(key), length, value) == MORULA_STATUS_OK, 'a parameter')
-      call check(len(morula_text(c_loc(key))) == length .and. length > 0, 'its key')
+      call morula_parameter_count(morula_name_of_primitive(i), k)
+      do j = 1, k
+        call morula_parameter(morula_name_of_primitive(i), j, text, value)
+        call check(len(text) > 0 .and. abs(value) < 100, 'a parameter')
+      end do
+      call morula_parameter(morula_name_of_primitive(i), k + 1, text, value, status)
+      call check(status == MORULA_STATUS_INDEX_OUT_OF_RANGE .and. text == '', 'no more')
       i = i + 1
     end do
     call check(i > 11, 'built-in particles')
@@ -503,14 +500,14 @@ program fortran_api
   implicit none
   call check(morula_version() == 1000000 * MORULA_VERSION_MAJOR + 1000 * MORULA_VERSION_MINOR &
     + MORULA_VERSION_PATCH, 'the version of the module is that of the library')
-  call check(index(morula_text(morula_version_string()), '.') > 0, 'version as text')
-  call check(morula_set_log(c_funloc(sink), c_null_ptr) == MORULA_STATUS_OK, 'set a sink')
+  call check(index(morula_library_version(), '.') > 0, 'version as text')
+  call morula_log_to(sink)
   call sizes()
   call shapes()
   call clumps()
   call handed_on()
   call check(lines > 0, 'the sink was called')
-  call check(morula_set_log(c_null_funptr, c_null_ptr) == MORULA_STATUS_OK, 'no sink')
+  call morula_log_to()
   print '(i0, a, i0, a)', made, ' checks, ', failed, ' failed'
   if (failed > 0) error stop 1
 end program fortran_api

@@ -9,7 +9,7 @@ program fortran_masses
   type(morula_clump_t) :: clump
   type(morula_body_t) :: body, placed
   type(morula_clump_options) :: clump_options
-  type(morula_mass_options) :: options
+  type(morula_mass_options), target :: options
   type(morula_contact_options) :: contact
   type(morula_export_options) :: export_options
   type(morula_moments) :: m, p
@@ -38,7 +38,7 @@ program fortran_masses
   call check(n == 60, 'spheres')
   call body%masses(result)
   call check(result%status == MORULA_MASSES_EXACT, 'exact')
-  call check(morula_text(morula_masses_status_name(result%status)) == 'exact', 'its name')
+  call check(morula_name_of_masses(result%status) == 'exact', 'its name')
   allocate(binding(result%binding))
   call body%copy_binding(binding)
   call check(all(binding >= 1) .and. all(binding <= n), 'binding spheres count from 1')
@@ -51,8 +51,7 @@ program fortran_masses
   call body%copy_spheres_f32(single, MORULA_FRAME_BODY)
   call check(all(abs(single - xyzr) < 1e-6_c_double), 'single precision')
 
-  call check(morula_random_orientations(5_c_int64_t, 2_c_size_t, turns) == MORULA_STATUS_OK, &
-    'orientations')
+  call morula_orientations(5_c_int64_t, turns)
   call body%transform(placed, 0.5_c_double, [1.0_c_double, 2.0_c_double, 3.0_c_double], turns(:, 1))
   call holds(placed)
   call body%moments(m)
@@ -62,12 +61,15 @@ program fortran_masses
   contact%young = 5e7_c_double
   call body%timestep(contact, step)
   call check(step%clump > 0 .and. step%rayleigh > 0, 'a time step')
-  again%struct_size = c_sizeof(again)
-  call check(morula_clump_timestep(clump%c_handle(), options, contact, again) == MORULA_STATUS_OK &
-    .and. abs(again%clump - step%clump) < 1e-9_c_double * step%clump, 'weighed for a time step')
+  call clump%timestep(contact, again, masses=options)
+  call check(abs(again%clump - step%clump) < 1e-9_c_double * step%clump, 'weighed for a time step')
+  call clump%transform(placed, 2.0_c_double, masses=options)
+  call placed%moments(p)
+  call check(abs(p%mass / m%mass - 8) < 1e-9_c_double, 'weighed and placed')
+  ! The first layer, as C has it: what is not given is NULL.
   raw = c_null_ptr
-  call check(morula_clump_transform(clump%c_handle(), options, 2.0_c_double, placed=raw) == &
-    MORULA_STATUS_OK .and. c_associated(raw), 'weighed and placed')
+  call check(morula_clump_transform(clump%c_handle(), c_loc(options), 2.0_c_double, c_null_ptr, &
+    c_null_ptr, raw) == MORULA_STATUS_OK .and. c_associated(raw), 'in the first layer')
   call morula_body_free(raw)
 
   call body%write(MORULA_EXPORT_LAMMPS, 'fortran_masses.mol')
@@ -76,8 +78,7 @@ program fortran_masses
   close (unit, status='delete')
   call check(line(1:8) == '# clump:', 'the first line of the molecule')
   call in_memory()
-  call check(morula_clump_write(clump%c_handle(), options, MORULA_EXPORT_CSV, path='masses.csv' // &
-    c_null_char) == MORULA_STATUS_OK, 'weighed and written')
+  call clump%write(MORULA_EXPORT_CSV, 'masses.csv', masses=options)
   open (newunit=unit, file='masses.csv', status='old', action='read')
   read (unit, '(a)') line
   close (unit, status='delete')
@@ -138,23 +139,24 @@ contains
     call other%destroy()
   end subroutine every_method
 
-  !> The files of a format in memory, through the first layer.
+  !> The files of a format in memory.
   subroutine in_memory()
-    type(c_ptr) :: files
-    integer(c_size_t) :: count, bytes, length
+    type(morula_files_t) :: files
+    integer :: count
+    character(:), allocatable :: name
     integer(c_int8_t), allocatable :: text(:)
-    files = c_null_ptr
     call morula_init(export_options)
-    call check(morula_body_export(body%c_handle(), MORULA_EXPORT_MERCURY, export_options, files) &
-      == MORULA_STATUS_OK, 'in memory')
-    call check(morula_files_count(files, count) == MORULA_STATUS_OK .and. count == 4, 'four files')
-    call check(morula_files_copy_name(files, 2_c_size_t, 0_c_size_t, c_null_ptr, length) &
-      == MORULA_STATUS_OK .and. length == len('Inertia/TOI.txt'), 'a name')
-    call check(morula_files_size(files, 1_c_size_t, bytes) == MORULA_STATUS_OK, 'a size')
-    allocate(text(bytes))
-    call check(morula_files_copy_bytes(files, 1_c_size_t, bytes, text) == MORULA_STATUS_OK, 'bytes')
-    call check(text(bytes) == 10, 'which end in a line')
-    call morula_files_free(files)
+    call files%create(body, MORULA_EXPORT_MERCURY, export_options)
+    call files%count(count)
+    call check(count == 4, 'four files')
+    call files%name(3, name)
+    call check(name == 'Inertia/TOI.txt', 'a name')
+    call files%bytes(2, text)
+    call check(text(size(text)) == 10, 'which end in a line')
+    call files%name(5, name, status)
+    call check(status == MORULA_STATUS_INDEX_OUT_OF_RANGE .and. name == '', 'no fifth')
+    call check(c_associated(files%c_handle()), 'the C handle')
+    call files%destroy()
   end subroutine in_memory
 
   !> The masses add up to the body, in its frame.

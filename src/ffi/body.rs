@@ -238,7 +238,7 @@ pub unsafe extern "C" fn morula_body_transform(
 ///
 /// Parameters: `masses` may be NULL for the defaults; its density is that of the particle; the rest as
 /// morula_body_transform().
-/// Returns: the statuses of both.
+/// Returns: the statuses of morula_body_from_clump() and morula_body_transform().
 /// Ownership: the clump stays the caller's; free *placed with morula_body_free(). *placed is
 /// written only on success.
 /// Threads: any thread; the clump is only read.
@@ -381,7 +381,7 @@ pub unsafe extern "C" fn morula_body_timestep(
 ///
 /// Parameters: `masses` may be NULL for the defaults; `options` and `timestep` as
 /// morula_body_timestep().
-/// Returns: the statuses of both.
+/// Returns: the statuses of morula_body_from_clump() and morula_body_timestep().
 /// Threads: any thread; the clump is only read.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_clump_timestep(

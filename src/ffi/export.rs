@@ -123,7 +123,7 @@ pub unsafe extern "C" fn morula_body_write(
 /// Weighs a clump and writes it, as morula_body_from_clump() and morula_body_write() do.
 ///
 /// Parameters: `masses` and `options` may be NULL for the defaults; the rest as morula_body_write().
-/// Returns: the statuses of both.
+/// Returns: the statuses of morula_body_from_clump() and morula_body_write().
 /// Threads: any thread; the clump is only read.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_clump_write(

@@ -1,0 +1,148 @@
+//! What the header says of each function: errors, ownership, threads. C programmers have
+//! nothing else to go by; the programs in c_examples hold the library to it.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod common;
+
+use common::c_header::{self, Declaration};
+use std::collections::BTreeMap;
+
+/// Name → its comment as one line.
+fn comments() -> BTreeMap<String, String> {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/include/morula.h");
+    let header = std::fs::read_to_string(path).unwrap();
+    let mut found = BTreeMap::new();
+    let mut comment = Vec::new();
+    for line in header.lines() {
+        if let Some(words) = line.strip_prefix("///") {
+            comment.push(words.trim());
+            continue;
+        }
+        let name = line.find("morula_").and_then(|at| line[at..].split_once('('));
+        if let Some((name, _)) = name
+            && line.starts_with(|c: char| c.is_ascii_lowercase())
+            && !line.starts_with("typedef")
+        {
+            found.insert(name.to_owned(), comment.join(" "));
+        }
+        comment.clear();
+    }
+    found
+}
+
+/// What a comment says under `word`, followed to the function that it names with "as".
+fn said(comments: &BTreeMap<String, String>, function: &str, word: &str) -> Option<String> {
+    let mut function = function.to_owned();
+    for _ in 0..4 {
+        let comment = &comments[&function];
+        let low = comment.to_lowercase();
+        let clause = low.match_indices(':').find_map(|(at, _)| {
+            let heads = &low[..at];
+            let heads = heads.rsplit(". ").next().unwrap();
+            heads.split(", ").any(|h| h.trim() == word).then(|| comment[at + 1..].trim().to_owned())
+        })?;
+        let next = clause.strip_prefix("as morula_").and_then(|rest| rest.split_once("()"));
+        match next {
+            Some((name, _)) if comments.contains_key(&format!("morula_{name}")) => {
+                function = format!("morula_{name}");
+            }
+            Some((name, _)) => panic!("{function}: there is no morula_{name}()"),
+            None => return Some(clause),
+        }
+    }
+    panic!("{function}: goes round in a circle");
+}
+
+fn is_handle(d: &Declaration) -> bool {
+    let of = d.of.replace("const ", "").replace('*', "");
+    ["shape", "solid", "clump", "body", "files", "cost", "sweep", "parent", "cache", "fragments"]
+        .iter()
+        .any(|h| of == format!("morula_{h}"))
+}
+
+#[test]
+fn every_function_says_what_it_returns_and_what_threads_may_do() {
+    let (header, comments) = (c_header::read(), comments());
+    assert!(header.functions.len() > 100);
+    for (name, (result, parameters)) in &header.functions {
+        let threads = said(&comments, name, "threads");
+        let threads = threads.unwrap_or_else(|| panic!("{name} says nothing of threads"));
+        let handles: Vec<&Declaration> =
+            parameters.iter().filter(|p| is_handle(p) && !p.of.ends_with("**")).collect();
+        if handles.iter().any(|p| !p.of.contains("const")) {
+            // Only what takes a handle back changes one.
+            assert!(name.ends_with("_free"), "{name} changes a handle");
+            assert!(threads.contains("no other thread"), "{name}: {threads}");
+        } else if !handles.is_empty() {
+            let at_once = threads.contains("at the same time") || threads.contains("only read");
+            assert!(at_once, "{name} takes const handles: {threads}");
+        }
+        if result == "void" {
+            continue;
+        }
+        let returns = said(&comments, name, "returns");
+        let returns = returns.unwrap_or_else(|| panic!("{name} does not say what it returns"));
+        match result.as_str() {
+            // Texts: for how long they last.
+            "const char*" => {
+                assert!(returns.contains("static") || comments[name].contains("until"), "{name}");
+            }
+            "int32_t" => {
+                let said = returns.contains("OK") || returns.starts_with("the statuses of morula_");
+                assert!(said, "{name}: {returns}");
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn every_function_that_makes_a_handle_names_the_one_that_frees_it() {
+    let (header, comments) = (c_header::read(), comments());
+    let mut makers = 0;
+    for (name, (_, parameters)) in &header.functions {
+        for made in parameters.iter().filter(|p| is_handle(p) && p.of.ends_with("**")) {
+            // An array of handles to read from.
+            if made.of.contains("const") {
+                continue;
+            }
+            makers += 1;
+            let ownership = said(&comments, name, "ownership")
+                .unwrap_or_else(|| panic!("{name} does not say whose *{} is", made.name));
+            let of = made.of.trim_end_matches('*');
+            assert!(ownership.contains(&format!("{of}_free()")), "{name}: {ownership}");
+        }
+    }
+    assert!(makers > 25, "only {makers} functions make handles");
+}
+
+#[test]
+fn every_status_that_a_function_names_exists() {
+    let (header, comments) = (c_header::read(), comments());
+    let known: Vec<&str> =
+        header.constants.keys().filter_map(|c| c.strip_prefix("MORULA_STATUS_")).collect();
+    let mut named = 0;
+    for name in header.functions.keys() {
+        let Some(returns) = said(&comments, name, "returns") else { continue };
+        let returns = returns.split("Ownership:").next().unwrap();
+        let returns = returns.split("Threads:").next().unwrap();
+        // What stands in parentheses explains one.
+        let returns: String = returns
+            .split('(')
+            .enumerate()
+            .map(|(i, part)| if i == 0 { part } else { part.split_once(')').map_or("", |p| p.1) })
+            .collect();
+        let words = returns.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+        for word in
+            words.filter(|w| w.len() > 3 && w.chars().all(|c| c.is_ascii_uppercase() || c == '_'))
+        {
+            let word = word.strip_prefix("MORULA_STATUS_").unwrap_or(word);
+            if word.starts_with("MORULA_") || word == "NULL" {
+                continue;
+            }
+            assert!(known.contains(&word), "{name} names the status {word}");
+            named += 1;
+        }
+    }
+    assert!(named > 300, "only {named} statuses named");
+}
