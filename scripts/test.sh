@@ -105,6 +105,7 @@ for code in liggghts yade; do
 done
 skip "what MercuryDPM, Chrono DEM-Engine, MFiX and Kratos read" "Debian has none of them"
 skip "what PFC and EDEM read" "they are not to be had freely"
+have abidiff || install abigail-tools || true
 # The dev profile: optimised, with debug assertions.
 step "cargo test" cargo test --locked --no-fail-fast
 
@@ -124,6 +125,11 @@ step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release \
     -DMORULA_CARGO_TARGET_DIR="$(pwd)/target"
 step "cmake build" cmake --build "$tree"
 step "ctest" ctest --test-dir "$tree" --output-on-failure
+if have abidiff; then
+    step "abi" sh scripts/abi.sh --library "$tree/lib/libmorula.so"
+else
+    lacking "abi" "abidiff is not installed (package abigail-tools)"
+fi
 
 if [ "$full" = yes ]; then
     have valgrind && step "configure valgrind" cmake -S . -B "$tree" -DMORULA_VALGRIND=ON &&
