@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use morula::dem::advice::advise;
+use morula::dem::energy;
 use morula::dem::{
     Coefficients, Engine, Laws, NormalLaw, Placed, Setup, State, Template, WallSetup, WallShape,
 };
@@ -69,5 +70,46 @@ fn the_advice_stays_below_the_step_at_which_many_contacts_jump() {
         // The advice is for two equal bodies: a factor of √2. Of contacts that act as one it takes the worst place, the corner.
         let most = if averaging { 4.0 } else { 1.6 };
         assert!((1.3..most).contains(&(low / advice.limit)), "{n}: {low} {advice:?}");
+    }
+}
+
+#[test]
+fn averaged_contacts_hold_what_was_put_into_them() {
+    // Tilted, so that they come one after the other; without damping.
+    for (n, law, tilt) in
+        [(1, NormalLaw::Linear, 0.0), (4, NormalLaw::Linear, 0.0), (4, NormalLaw::Hertz, 0.02)]
+    {
+        let laws = Laws { averaging: true, ..Laws::elastic(law) };
+        let mut state = State::new(vec![Arc::new(plate(n))]);
+        let height = 1.0 / f64::from(n) + 0.03;
+        let rotation = [1.0, 0.5 * tilt, 0.3 * tilt, 0.0];
+        let at = Placed::at(Vec3::new(0.0, 0.0, height));
+        state.add(&Placed { velocity: -Vec3::z(), rotation, ..at }).unwrap();
+        let mut engine = Engine::new(
+            Setup {
+                laws: Some(laws),
+                coefficients: vec![Coefficients { stiffness: 1e5, ..Coefficients::default() }],
+                walls: vec![WallSetup::still(WallShape::Plane { normal: Vec3::z(), offset: 0.0 })],
+                guard: false,
+                ..Setup::free(1e-5)
+            },
+            state,
+        )
+        .unwrap();
+        let (mut before, mut most, mut touched) = (0.5, 0.0f64, 0);
+        for _ in 0..1000 {
+            engine.advance(10, &Run::serial()).unwrap();
+            let contacts = engine.contacts();
+            let stored: f64 = contacts.iter().flatten().map(|c| c.energy).sum();
+            let [a, b] = energy::kinetic(engine.state());
+            if contacts.iter().all(Vec::is_empty) {
+                // What the way has kept or given is seen where they part.
+                before = a + b;
+            } else {
+                most = most.max((a + b + stored - before).abs());
+                touched += 1;
+            }
+        }
+        assert!(touched > 10 && most < 1e-5, "{n} {law:?}: {most} in {touched}");
     }
 }

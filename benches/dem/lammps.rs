@@ -73,7 +73,7 @@ pub fn time(engine: &Engine, steps: u64, skins: &[f64]) -> Option<(f64, f64, f64
     std::fs::write(folder.join("bodies"), bodies).unwrap();
     let e = restitution(engine.setup().coefficients[0].damping);
     let law = format!(
-        "hertz/material {YOUNG} {e} {POISSON} tangential mindlin NULL 1.0 {FRICTION} damping tsuji"
+        "hertz/material {YOUNG} {e} {POISSON} tangential mindlin NULL 1.0 {FRICTION} damping tsuji limit_damping"
     );
     let reach = 2.2 * engine.state().template_of(0).bound();
     let mut best: Option<(f64, f64, f64)> = None;

@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// What the first bytes of a checkpoint are.
 const MAGIC: &[u8; 8] = b"MORULADE";
 /// Checkpoints of another number are not read.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 
 /// A template, its spheres as they were handed in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -5,7 +5,7 @@ use crate::input::parse::whole;
 use crate::simulate::{CHECKPOINT, Job, Ran, go, pair};
 use crate::write;
 use morula::Error;
-use morula::dem::scene::Mean;
+use morula::dem::scene::{Mean, parse};
 use std::path::{Path, PathBuf};
 
 /// Runs a scene with one value after another, by default the spheres of its clumps, until two that follow each other
@@ -58,7 +58,7 @@ struct Step {
 
 pub fn run(args: &Args) -> Done {
     let (path, values) = &args.over;
-    let path = if path == "n" { "templates.*.spheres" } else { path.as_str() };
+    let paths = if path == "n" { made(args)? } else { vec![path.clone()] };
     let values: Vec<&str> = values.split(',').map(str::trim).collect();
     if values.contains(&"") {
         return Err(Fail::Usage(format!(
@@ -69,7 +69,7 @@ pub fn run(args: &Args) -> Done {
     let mut steps: Vec<Step> = Vec::new();
     let mut settled = None;
     for value in values {
-        let step = step(args, path, value)?;
+        let step = step(args, &paths, value)?;
         write::to_stdout(|out| {
             if steps.is_empty() {
                 writeln!(
@@ -115,12 +115,25 @@ pub fn run(args: &Args) -> Done {
     })
 }
 
-fn step(args: &Args, path: &str, value: &str) -> Done<Step> {
+/// The paths to the numbers of spheres of all templates that are made of a shape.
+fn made(args: &Args) -> Done<Vec<String>> {
+    let scene = Path::new(&args.scene);
+    let text = std::fs::read_to_string(scene).map_err(|e| Fail::file(scene, e))?;
+    let file = parse(&text, args.quick, &args.set).about(&args.scene)?;
+    let made = file.templates.iter().filter(|(_, t)| t.shape.is_some() || t.file.is_some());
+    let paths: Vec<String> = made.map(|(name, _)| format!("templates.{name}.spheres")).collect();
+    if paths.is_empty() {
+        return Err(Fail::Usage("--over n needs a template that is made of a shape".into()));
+    }
+    Ok(paths)
+}
+
+fn step(args: &Args, paths: &[String], value: &str) -> Done<Step> {
     let (mut means, mut seconds, mut worked): (Vec<Mean>, f64, Option<f64>) =
         (Vec::new(), 0.0, Some(0.0));
     for seed in 1..=args.seeds.max(1) {
         let mut set = args.set.clone();
-        set.push((path.to_owned(), value.to_owned()));
+        set.extend(paths.iter().map(|p| (p.clone(), value.to_owned())));
         if args.seeds > 1 {
             set.push(("run.seed".to_owned(), seed.to_string()));
         }

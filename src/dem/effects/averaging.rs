@@ -21,6 +21,10 @@ pub(crate) struct Average {
     most: u32,
     /// That of the last step.
     last: u32,
+    /// What the springs would hold, each by itself, in the last step.
+    alone: f64,
+    /// The work that was put into what they do together.
+    work: f64,
 }
 
 impl Average {
@@ -35,14 +39,31 @@ impl Average {
         if self.force > 0.0 { self.sum / (self.force * f64::from(self.last)) } else { 1.0 }
     }
 
-    /// F/S of a step with so many contacts (at least 1) and this sum of elastic forces.
+    /// What the pair's spring holds over what its springs would hold each by itself. The first is the work that was put
+    /// into it: F depends on the way, not on the place alone.
+    pub fn scale(&self) -> f64 {
+        if self.alone > 0.0 { self.work / self.alone } else { self.part() }
+    }
+
+    /// F/S of the last step.
+    pub fn part(&self) -> f64 {
+        if self.sum > 0.0 { self.force / self.sum } else { 1.0 / f64::from(self.most.max(1)) }
+    }
+
+    /// F/S of a step with so many contacts (at least 1), this sum of elastic forces, and this of the energies that they
+    /// hold each by itself.
     #[inline]
-    pub fn share(&mut self, count: u32, sum: f64) -> f64 {
+    pub fn share(&mut self, count: u32, sum: f64, alone: f64) -> f64 {
+        let before = self.active().then(|| self.part());
         self.most = self.most.max(count);
         let force = self.force + (sum - self.sum) / f64::from(count);
         self.force = force.clamp(sum.max(0.0) / f64::from(self.most), sum.max(0.0));
         (self.sum, self.last) = (sum, count);
-        if sum > 0.0 { self.force / sum } else { 1.0 / f64::from(self.most) }
+        // ∫ (F/S) dE: what is done to each spring is done F/S times.
+        let part = self.part();
+        self.work += 0.5 * (part + before.unwrap_or(part)) * (alone - self.alone);
+        self.alone = alone;
+        part
     }
 }
 
@@ -64,7 +85,7 @@ mod tests {
             let damper = 2.0 * ratio(0.6) * if eased { average.ease() } else { 1.0 };
             let sum: f64 = touching.iter().sum();
             let force: f64 = touching.iter().map(|d| (d - damper * v).max(0.0)).sum();
-            v += average.share(touching.len() as u32, sum) * force * dt;
+            v += average.share(touching.len() as u32, sum, 0.0) * force * dt;
         }
     }
 

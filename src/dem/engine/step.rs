@@ -212,7 +212,7 @@ impl Engine {
             range: range(&self.setup, &s.templates),
             dt: self.setup.dt,
             felt: false,
-            averaging: false,
+            averaging: self.setup.laws.is_some_and(|l| l.averaging),
         };
         kernel.records(&self.broad.pairs, &self.wall_pairs, &context)
     }

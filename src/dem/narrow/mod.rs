@@ -88,9 +88,12 @@ pub struct ContactRecord {
     pub normal: Vec3,
     /// How deep.
     pub overlap: f64,
-    /// What its springs hold.
+    /// What its springs hold; of averaged contacts its part of the work that was put into all of the pair.
     pub energy: f64,
 }
+
+/// What a contact remembers that has only been pressed.
+const UNSTRETCHED: [f64; 16] = [0.0; 16];
 
 impl Pair {
     /// A pair of which nothing is known.
@@ -207,6 +210,7 @@ impl Pair {
         }
         let (mut force, mut torques) = (Vec3::zeros(), [Vec3::zeros(); 2]);
         let (mut count, mut elastic, mut closest) = (0u32, 0.0, self.expire - moved);
+        let mut alone = 0.0;
         for short in &mut self.short {
             if short.gap > used {
                 closest = closest.min(short.gap - used);
@@ -251,6 +255,9 @@ impl Pair {
             };
             count += 1;
             elastic += e;
+            if built("averaging") && context.averaging {
+                alone += L::energy(coefficients, -m.gap, m.radius, &UNSTRETCHED[..L::WIDTH]);
+            }
             force += f;
             torques[0] -= m.point.cross(&f) + couple;
             torques[1] += (m.point - shift).cross(&f) + couple;
@@ -264,7 +271,7 @@ impl Pair {
         scratch.contacts += u64::from(count);
         if built("averaging") && context.averaging {
             scratch.calls.averaging += 1;
-            let share = self.average.share(count, elastic);
+            let share = self.average.share(count, elastic, alone);
             force *= share;
             torques = [torques[0] * share, torques[1] * share];
         }
@@ -304,6 +311,13 @@ impl Pair {
             let lasting =
                 L::FAR && m.gap < context.range && memory.last().is_some_and(|m| *m != 0.0);
             if m.gap < 0.0 || lasting {
+                let normal = L::energy(c, -m.gap, m.radius, &UNSTRETCHED[..L::WIDTH]);
+                let whole = L::energy(c, -m.gap, m.radius, memory);
+                let energy = if context.averaging {
+                    (whole - normal) * self.average.part() + normal * self.average.scale()
+                } else {
+                    whole
+                };
                 found.push(ContactRecord {
                     a: self.a,
                     b: self.b,
@@ -312,7 +326,7 @@ impl Pair {
                     point: a.x + a.r * m.point,
                     normal: a.r * m.normal,
                     overlap: -m.gap,
-                    energy: L::energy(c, -m.gap, m.radius, memory),
+                    energy,
                 });
             }
         }

@@ -2,18 +2,17 @@
 
 use super::file::*;
 use super::fragmentation::{breaks, fragmentation, with_pieces};
+use super::laws::laws;
 use super::materials::{coefficients, known};
-use super::templates::{Made, Makes, Source};
+use super::refuse::{refuse_idle, refuse_overlap};
+use super::templates::{Made, Makes};
+use super::walls::{insertion, wall};
 use super::watch::Watch;
 use super::wear::{wear, wears};
 use crate::dem::advice::advise;
 use crate::dem::effects::fragmentation::Fragmentation;
 use crate::dem::effects::wear::Wear;
-use crate::dem::{
-    Coefficients, CohesionLaw, DampingLaw, Engine, Laws, NormalLaw, Placed, Setup, State,
-    TangentialLaw, WallMotion, WallSetup, WallShape,
-};
-use crate::dem::{Drag, InsertRegion, Insertion};
+use crate::dem::{Drag, Engine, Insertion, Placed, Setup, State, WallSetup};
 use crate::error::{Error, Result, figure, push};
 use crate::math::Vec3;
 use crate::run::Run;
@@ -216,103 +215,6 @@ pub fn build_with(file: &SceneFile, folder: &Path, makes: &mut Makes, run: &Run)
     })
 }
 
-fn laws(e: &EffectsPart) -> Result<Option<Laws>> {
-    let Some(normal) = e.normal else {
-        let others = [
-            ("damping", e.damping.is_some()),
-            ("tangential", e.tangential.is_some()),
-            ("rolling", e.rolling),
-            ("cohesion", e.cohesion.is_some()),
-            ("averaging", e.averaging),
-        ];
-        return match others.iter().find(|o| o.1) {
-            Some((name, _)) => Err(Error::InvalidArgument(format!(
-                "effects.{name} does nothing without effects.normal: there are no contacts"
-            ))),
-            None => Ok(None),
-        };
-    };
-    Ok(Some(Laws {
-        normal: match normal {
-            NormalName::Linear => NormalLaw::Linear,
-            NormalName::Hertz => NormalLaw::Hertz,
-        },
-        damping: match e.damping {
-            None => DampingLaw::None,
-            Some(DampingName::Bodies) => DampingLaw::Bodies,
-            Some(DampingName::Contact) => DampingLaw::Contact,
-        },
-        tangential: match e.tangential {
-            None => TangentialLaw::None,
-            Some(TangentialName::Viscous) => TangentialLaw::Viscous,
-            Some(TangentialName::Mindlin) => TangentialLaw::Mindlin,
-            Some(TangentialName::NoSlip) => TangentialLaw::NoSlip,
-        },
-        rolling: e.rolling,
-        cohesion: match e.cohesion {
-            None => CohesionLaw::None,
-            Some(CohesionName::Linear) => CohesionLaw::Linear,
-            Some(CohesionName::Jkr) => CohesionLaw::Jkr,
-        },
-        averaging: e.averaging,
-    }))
-}
-
-/// Refuses effects that are named and can do nothing.
-fn refuse_idle(
-    file: &SceneFile,
-    templates: &[Made],
-    state: &State,
-    walls: &[WallSetup],
-    coefficients: &[Coefficients],
-) -> Result<()> {
-    let e = &file.effects;
-    let coming = file.insertion.iter().map(|i| i.total).sum::<u64>();
-    let no = |what: &str, why: &str| {
-        Err(Error::InvalidArgument(format!("effects.{what} can do nothing: {why}")))
-    };
-    if let Some(g) = e.gravity {
-        if !g.iter().all(|c| c.is_finite()) {
-            return Err(Error::NotFinite(format!(
-                "effects.gravity is ({}, {}, {})",
-                g[0], g[1], g[2]
-            )));
-        }
-        if g == [0.0; 3] {
-            return no("gravity", "it is 0");
-        }
-        if coming == 0 && state.fixed.iter().all(|f| *f) {
-            return no("gravity", "every body is fixed");
-        }
-    }
-    let alone = (state.len() + walls.len()) as u64 + coming < 2;
-    if e.normal.is_some() && alone && file.fragmentation.is_none() {
-        return no("normal", "there are no two things that could touch");
-    }
-    let zero = |of: &dyn Fn(&Coefficients) -> f64| coefficients.iter().all(|c| of(c) == 0.0);
-    if e.damping.is_some() && zero(&|c| c.damping) {
-        return no("damping", "every restitution is 1");
-    }
-    if e.tangential.is_some() && zero(&|c| c.friction) {
-        return no("tangential", "every friction is 0");
-    }
-    if e.rolling && zero(&|c| c.rolling) {
-        return no("rolling", "every coefficient of rolling is 0");
-    }
-    if e.cohesion.is_some() && zero(&|c| c.cohesion) {
-        return no("cohesion", "every cohesion is 0");
-    }
-    let single = templates.iter().all(|t| t.spheres.len() == 1);
-    let flat = walls.iter().all(|w| matches!(w.shape, WallShape::Plane { .. }));
-    if e.averaging && single && flat {
-        return no(
-            "averaging",
-            "every body is one sphere and every wall a plane: two never touch twice",
-        );
-    }
-    Ok(())
-}
-
 impl Scene {
     /// Goes on from a checkpoint of this scene. Refused: what [`Engine::resume`] refuses.
     pub fn resume(&mut self, checkpoint: &[u8]) -> Result<()> {
@@ -326,139 +228,4 @@ impl Scene {
         self.engine = engine;
         Ok(())
     }
-}
-
-/// Refuses bodies that are in each other or in a wall at the start.
-fn refuse_overlap(engine: &Engine, part: f64) -> Result<()> {
-    let s = engine.state();
-    let radius = |body: u32, sphere: u32| {
-        s.template_of(body as usize).spheres().get(sphere as usize).map_or(0.0, |s| s.radius)
-    };
-    let [bodies, walls] = engine.contacts();
-    for (of_walls, c) in bodies.iter().map(|c| (false, c)).chain(walls.iter().map(|c| (true, c))) {
-        let own = radius(c.b, c.sphere_b);
-        let least = if of_walls { own } else { own.min(radius(c.a, c.sphere_a)) };
-        if c.overlap > part * least {
-            let first = if of_walls { "wall" } else { "body" };
-            return Err(Error::InvalidArgument(format!(
-                "{first} {} and body {} overlap by {} at the start, more than {} of the smaller radius \
-                 (run.overlap)",
-                c.a,
-                s.label[c.b as usize],
-                figure(c.overlap),
-                figure(part)
-            )));
-        }
-    }
-    Ok(())
-}
-
-fn insertion(
-    i: usize,
-    part: &InsertionPart,
-    file: &SceneFile,
-    materials: &[u32],
-    dt: f64,
-) -> Result<Insertion> {
-    let bad = |what: String| Err(Error::InvalidArgument(format!("insertion {i} {what}")));
-    let mut templates = Vec::new();
-    for name in &part.templates {
-        match file.templates.keys().position(|n| n == name) {
-            Some(at) => push("templates", &mut templates, at as u32)?,
-            None => return bad(format!("is of the template {name}, which is not there")),
-        }
-    }
-    let of = |t: &u32| materials[*t as usize];
-    let Some(material) = templates.first().map(of) else {
-        return bad("names no template".into());
-    };
-    if templates.iter().any(|t| of(t) != material) {
-        return bad("is of templates of several materials".into());
-    }
-    if !(part.every.is_finite() && part.every > 0.0) {
-        return bad(format!("comes every {}, not a number above 0", figure(part.every)));
-    }
-    let region = match (&part.cuboid, &part.cylinder) {
-        (Some(b), None) => InsertRegion::Box { lo: b.lo.into(), hi: b.hi.into() },
-        (None, Some(c)) => {
-            InsertRegion::Cylinder { center: c.center.into(), radius: c.radius, height: c.height }
-        }
-        _ => return bad("needs one of box and cylinder".into()),
-    };
-    Ok(Insertion {
-        templates,
-        material,
-        region,
-        velocity: part.velocity.into(),
-        total: part.total,
-        batch: part.at_once,
-        every: ((part.every / dt).round().max(1.0)) as u64,
-        attempts: part.attempts,
-        seed: file.run.seed.wrapping_add(i as u64),
-    })
-}
-
-/// The triangles of a mesh, in the frame of the scene.
-fn mesh(i: usize, part: &MeshPart, folder: &Path, run: &Run) -> Result<WallShape> {
-    if part.file.is_some() == part.shape.is_some() {
-        return Err(Error::InvalidArgument(format!(
-            "the mesh of wall {i} needs one of file and shape"
-        )));
-    }
-    let source = Source {
-        shape: part.shape.as_deref(),
-        set: &part.set,
-        segments: part.segments,
-        file: part.file.as_deref(),
-        scale: part.scale,
-        stretch: None,
-    };
-    let shape = source.shape(folder, run).map_err(|e| e.about(&format!("wall {i}")))?;
-    match shape.body.as_ref() {
-        crate::shape::Body::Mesh(m) => Ok(WallShape::Mesh {
-            vertices: m.vertices.iter().map(|v| shape.frame.to_input(v)).collect(),
-            triangles: m.faces.clone(),
-        }),
-        crate::shape::Body::Voxels(_) => {
-            Err(Error::Unsupported(format!("wall {i} is of voxels, not of triangles")))
-        }
-    }
-}
-
-fn wall(i: usize, w: &WallPart, file: &SceneFile, folder: &Path, run: &Run) -> Result<WallSetup> {
-    let material = known(&file.materials, &w.material, &format!("wall {i}"))?;
-    let shape = match (&w.plane, &w.cuboid, &w.cylinder, &w.mesh) {
-        (Some(p), None, None, None) => {
-            WallShape::Plane { normal: p.normal.into(), offset: p.offset }
-        }
-        (None, Some(b), None, None) => WallShape::Box { lo: b.lo.into(), hi: b.hi.into() },
-        (None, None, Some(c), None) => WallShape::Cylinder {
-            center: c.center.into(),
-            axis: c.axis.into(),
-            radius: c.radius,
-            length: c.length,
-        },
-        (None, None, None, Some(m)) => mesh(i, m, folder, run)?,
-        _ => {
-            return Err(Error::InvalidArgument(format!(
-                "wall {i} needs one of plane, box, cylinder and mesh"
-            )));
-        }
-    };
-    let motion = match (w.slide, w.convey, &w.shake, &w.turn) {
-        (None, None, None, None) => WallMotion::Still,
-        (Some(v), None, None, None) => WallMotion::Slide(v.into()),
-        (None, Some(v), None, None) => WallMotion::Convey(v.into()),
-        (None, None, Some(s), None) => {
-            WallMotion::Shake { amplitude: s.amplitude.into(), frequency: s.frequency }
-        }
-        (None, None, None, Some(t)) => WallMotion::Turn {
-            center: t.center.into(),
-            axis: t.axis.into(),
-            rate: t.rate,
-            spin: t.spin,
-        },
-        _ => return Err(Error::InvalidArgument(format!("wall {i} moves in more than one way"))),
-    };
-    Ok(WallSetup { shape, material, motion })
 }

@@ -133,10 +133,10 @@ mod tests {
             [set("run.end", "3"), set("templates.*.spheres", "7"), set("bodies.0.fixed", "true")];
         let scene = parse(SCENE, true, &by);
         let scene = scene.unwrap();
-        assert_eq!((scene.run.end, scene.templates["ball"].spheres), (3.0, 7));
+        assert_eq!((scene.run.end, scene.templates["ball"].spheres), (3.0, Some(7)));
         assert!(scene.bodies[0].fixed);
         let bare = parse(SCENE, false, &[set("templates.ball.method", "mss")]).unwrap();
-        assert_eq!(bare.templates["ball"].method, super::super::file::MethodName::Mss);
+        assert_eq!(bare.templates["ball"].method, Some(super::super::file::MethodName::Mss));
     }
 
     #[test]

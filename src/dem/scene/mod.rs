@@ -8,13 +8,16 @@ mod frames;
 mod given;
 pub mod impacts;
 mod keys;
+mod laws;
 mod materials;
 mod mean;
 mod play;
+mod refuse;
 mod shares;
 pub mod shows;
 pub mod sweep;
 mod templates;
+mod walls;
 mod watch;
 pub mod wear;
 

@@ -49,11 +49,15 @@ pub enum OfName {
     Rise,
     /// The mean of the lines from `output.average` on.
     Mean,
+    /// The mean time from one rise through 0 to the next, between lines by a straight line.
+    Period,
 }
 
 impl OfName {
-    /// That of these values; `None` without any, and where nothing can be told of a first line that is 0.
-    pub fn of(self, values: &[f64]) -> Option<f64> {
+    /// That of these (time, value); `None` without any, where nothing can be told of a first line that is 0, and for the
+    /// period of what does not rise through 0 twice.
+    pub fn of(self, lines: &[(f64, f64)]) -> Option<f64> {
+        let values: Vec<f64> = lines.iter().map(|l| l.1).collect();
         let first = *values.first()?;
         let most = |f: &dyn Fn(f64) -> f64| values.iter().map(|v| f(*v)).fold(f64::MIN, f64::max);
         match self {
@@ -61,6 +65,16 @@ impl OfName {
             OfName::Most => Some(most(&|v| v)),
             OfName::Least => Some(-most(&|v| -v)),
             OfName::Mean => Some(values.iter().sum::<f64>() / values.len() as f64),
+            OfName::Period => {
+                let rises = lines.windows(2).filter(|w| w[0].1 < 0.0 && w[1].1 >= 0.0);
+                let at = |w: &[(f64, f64)]| {
+                    let ([t, s], [a, b]) = ([w[0].0, w[1].0], [w[0].1, w[1].1]);
+                    t + (s - t) * a / (a - b)
+                };
+                let times: Vec<f64> = rises.map(at).collect();
+                let (a, b) = (times.first()?, times.last()?);
+                (times.len() > 1).then(|| (b - a) / (times.len() - 1) as f64)
+            }
             _ if first == 0.0 => None,
             OfName::Drift => Some(most(&|v| (v - first).abs()) / first.abs()),
             OfName::Rise => Some(most(&|v| v - first) / first.abs()),
@@ -92,11 +106,15 @@ mod tests {
 
     #[test]
     fn what_of_the_lines_is_meant() {
-        let v = [-2.0, 1.0, -5.0, -1.0];
+        let v = [-2.0, 1.0, -5.0, -1.0].map(|v| (0.0, v));
         let all =
             [OfName::Last, OfName::Most, OfName::Least, OfName::Drift, OfName::Rise, OfName::Mean];
         assert_eq!(all.map(|o| o.of(&v).unwrap()), [-1.0, 1.0, -5.0, 1.5, 1.5, -1.75]);
-        assert_eq!(OfName::Drift.of(&[0.0, 1.0]), None);
+        assert_eq!(OfName::Drift.of(&[(0.0, 0.0), (1.0, 1.0)]), None);
+        let waves: Vec<(f64, f64)> =
+            (0..100).map(|k| 0.1 * f64::from(k)).map(|t| (t, (2.0 * t - 1.0).sin())).collect();
+        assert!((OfName::Period.of(&waves).unwrap() - std::f64::consts::PI).abs() < 1e-3);
+        assert_eq!(OfName::Period.of(&waves[..20]), None);
         assert_eq!(OfName::Last.of(&[]), None);
     }
 }

@@ -1,6 +1,6 @@
 //! The clumps of a scene.
 
-use super::file::{EffortName, MethodName, TargetName, TemplatePart};
+use super::file::{EffortName, MethodName, TargetName, TemplatePart, edges};
 use super::given::given;
 use crate::dem::Template;
 use crate::error::{Error, Result, figure, push};
@@ -55,6 +55,24 @@ impl Makes {
     }
 }
 
+/// A key that means nothing where the spheres are given.
+fn idle(part: &TemplatePart) -> Option<&'static str> {
+    if part.shape.is_some() || part.file.is_some() {
+        return None;
+    }
+    let keys = [
+        ("spheres", part.spheres.is_some()),
+        ("method", part.method.is_some()),
+        ("effort", part.effort.is_some()),
+        ("cells", part.cells.is_some()),
+        ("segments", part.segments.is_some()),
+        ("set", !part.set.is_empty()),
+        ("stretch", part.stretch.is_some()),
+        ("equal_volume", part.equal_volume),
+    ];
+    keys.iter().find(|k| k.1).map(|k| k.0)
+}
+
 fn make(name: &str, part: &TemplatePart, keep: bool, folder: &Path, run: &Run) -> Result<Made> {
     let bad = |what: String| Err(Error::InvalidArgument(format!("the template {name} {what}")));
     let choices = [
@@ -74,6 +92,9 @@ fn make(name: &str, part: &TemplatePart, keep: bool, folder: &Path, run: &Run) -
     if let Some(radius) = part.ball.filter(|r| !(r.is_finite() && *r > 0.0)) {
         return bad(format!("is a ball of radius {}, not a number above 0", figure(radius)));
     }
+    if let Some(key) = idle(part) {
+        return bad(format!("has {key}, which does nothing: its spheres are given, not made"));
+    }
     if let Some((spheres, body)) = given(part, folder, run).map_err(whose)? {
         if keep {
             return bad("is of given spheres, not of a shape that could break or wear".into());
@@ -89,32 +110,32 @@ fn make(name: &str, part: &TemplatePart, keep: bool, folder: &Path, run: &Run) -
     let source = Source {
         shape: part.shape.as_deref(),
         set: &part.set,
-        segments: part.segments,
+        segments: part.segments.unwrap_or_else(edges),
         file: part.file.as_deref(),
         scale: part.scale,
         stretch: part.stretch,
     };
     let shape = source.shape(folder, run).map_err(whose)?;
-    let resolution = Resolution::CellsLongest(part.cells);
+    let resolution = Resolution::CellsLongest(part.cells.unwrap_or(128));
     let solid = SolidOptions { resolution, ..SolidOptions::default() };
     let solid = Solid::new(&shape, &solid, run).map_err(whose)?;
     let mut options = GenerateOptions {
-        method: match part.method {
+        method: match part.method.unwrap_or_default() {
             MethodName::Best => Method::Best,
             MethodName::Mss => Method::Mss,
             MethodName::Inscribed => Method::Inscribed,
             MethodName::Cover => Method::Cover,
         },
-        effort: match part.effort {
+        effort: match part.effort.unwrap_or_default() {
             EffortName::Draft => Effort::Draft,
             EffortName::Normal => Effort::Normal,
             EffortName::Thorough => Effort::Thorough,
         },
-        spheres: part.spheres,
+        spheres: part.spheres.unwrap_or(50),
         ..GenerateOptions::default()
     };
     options.best.equal_volume = part.equal_volume;
-    if part.equal_volume && part.method != MethodName::Best {
+    if part.equal_volume && part.method.unwrap_or_default() != MethodName::Best {
         return bad("is of equal volume, which the method best alone makes".into());
     }
     let clump = generate(&solid, &options, run).map_err(whose)?;

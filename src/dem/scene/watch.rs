@@ -48,6 +48,8 @@ enum Own {
     Velocity(usize),
     Spin(usize),
     Quaternion(usize),
+    Force(usize),
+    AlongAxes(usize),
 }
 
 const WHOLE: [(&str, Whole); 23] = [
@@ -76,7 +78,7 @@ const WHOLE: [(&str, Whole); 23] = [
     ("angular-momentum-z", Whole::AngularMomentum(2)),
 ];
 
-const OWN: [(&str, Own); 13] = [
+const OWN: [(&str, Own); 19] = [
     ("x", Own::Position(0)),
     ("y", Own::Position(1)),
     ("z", Own::Position(2)),
@@ -90,6 +92,12 @@ const OWN: [(&str, Own); 13] = [
     ("qx", Own::Quaternion(1)),
     ("qy", Own::Quaternion(2)),
     ("qz", Own::Quaternion(3)),
+    ("fx", Own::Force(0)),
+    ("fy", Own::Force(1)),
+    ("fz", Own::Force(2)),
+    ("own-wx", Own::AlongAxes(0)),
+    ("own-wy", Own::AlongAxes(1)),
+    ("own-wz", Own::AlongAxes(2)),
 ];
 
 impl Watch {
@@ -171,6 +179,10 @@ impl Watch {
                     Own::Velocity(k) => s.velocity[i][k],
                     Own::Spin(k) => s.angular_velocity(i)[k],
                     Own::Quaternion(k) => s.orientation[i].quaternion[k],
+                    Own::Force(k) => s.force[i][k],
+                    Own::AlongAxes(k) => {
+                        (s.orientation[i].matrix().transpose() * s.angular_velocity(i))[k]
+                    }
                 })
             }
         };

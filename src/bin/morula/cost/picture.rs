@@ -8,7 +8,7 @@ use std::error::Error;
 
 const SIZE: (u32, u32) = (1500, 560);
 /// One for each line, told apart by people who do not tell red from green.
-pub const COLOURS: [(u8, u8, u8); 8] = [
+pub const COLOURS: [(u8, u8, u8); 13] = [
     (31, 95, 160),
     (230, 126, 34),
     (0, 140, 120),
@@ -17,6 +17,11 @@ pub const COLOURS: [(u8, u8, u8); 8] = [
     (150, 110, 60),
     (90, 160, 220),
     (200, 60, 60),
+    (240, 190, 40),
+    (90, 60, 160),
+    (120, 170, 60),
+    (240, 150, 180),
+    (30, 60, 60),
 ];
 
 type Drawing<T = ()> = Result<T, Box<dyn Error>>;

@@ -199,7 +199,9 @@ impl Shown {
             (Some(from), Some(k)) => line.get(k).is_some_and(|t| t.is_some_and(|t| t >= from)),
             _ => true,
         };
-        let values: Vec<f64> = self.lines.iter().filter(late).filter_map(|l| *l.get(k)?).collect();
+        let at = |l: &Vec<Option<f64>>| time.and_then(|t| *l.get(t)?).unwrap_or(0.0);
+        let timed = |l: &Vec<Option<f64>>| Some((at(l), (*l.get(k)?)?));
+        let values: Vec<(f64, f64)> = self.lines.iter().filter(late).filter_map(timed).collect();
         show.of.of(&values).map(|v| v * show.times)
     }
 }
