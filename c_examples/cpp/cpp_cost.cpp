@@ -74,7 +74,8 @@ int main() {
   try {
     morula::Sweep none(shape, over);
     CHECK(false);
-  } catch (const std::invalid_argument &) {
+  } catch (const morula::Error &error) {
+    CHECK(error.status() == MORULA_STATUS_INVALID_ARGUMENT);
   }
   std::printf("%d checks, %d failed\n", made, failed);
   return failed != 0;
