@@ -958,7 +958,8 @@ typedef struct morula_cost_options {
   /// The contacts for which the time step holds; NULL: a spring of stiffness 1.
   const struct morula_contact_options *contact;
   /// What one step of the solver costs with clumps of n spheres, over one with single spheres:
-  /// a + b n + c n^2. Default: fitted to LAMMPS.
+  /// a + b n + c n^2. Default: fitted to LAMMPS; to the engine of `morula simulate`: 1.16, 0, 2.55e-6
+  /// with `lists` of 0, 0.
   double step[3];
   /// And what lists of neighbours add: (d n + e n^2) / rebuild. Default: fitted to LAMMPS.
   double lists[2];

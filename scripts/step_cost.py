@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""What a step of a DEM solver costs with clumps: runs LAMMPS, fits a model.
+"""What a step of a DEM solver costs with clumps: runs LAMMPS or our engine, fits a model.
 
-    python3 scripts/step_cost.py [--morula PATH] [--repeat N] [--fit] [--numbers 1,3,10,…]
+    python3 scripts/step_cost.py [--solver lammps|morula] [--morula PATH] [--repeat N] [--fit] [--numbers 1,3,10,…]
 
-Writes scripts/step_cost.csv (what was measured) and prints the coefficients, which src/cost/step.rs holds; --fit
-leaves the file as it is and fits it anew. Needs `lmp` (Debian: lammps).
+Writes scripts/step_cost.csv, or for our engine scripts/step_cost_morula.csv (what was measured) and prints the
+coefficients, which src/cost/step.rs holds; --fit leaves the file as it is and fits it anew. Needs `lmp` (Debian:
+lammps), which makes the places of the stones for both.
 
 The scene: stones of one volume (sample:stone,seed=7, d_eq = 1) in a periodic box at a solid fraction of 0.5, 64 of
 them pressed together once as clumps of 30 spheres; then clumps of every n stand in the same places, eight such boxes
@@ -12,6 +13,11 @@ up to n = 100, one above. Hooke contacts with
 tangential history and friction, fix rigid/small with our templates, spheres of one clump excluded from each other's
 lists, skin 0.1 d_eq, lists made anew every 50 steps. n = 1 is the sphere of equal volume with fix nve/sphere.
 One process; processor time of LAMMPS's own breakdown, the least of the repetitions.
+
+Our engine (`morula simulate`) takes the same stones, places, turns, velocities, stiffness, friction and steps. It has
+no periodic boundaries: the boxes stand side by side in free space, more of them for few spheres, for a tenth of a
+second at most, in which the outermost stones move by 0.05 d_eq. Its lists are of bodies and are made anew when these
+have moved far enough: their cost is in that of the step. Processor time of a long run less that of a short one.
 
 The model, in units of what a step of single spheres costs in the whole:
     step(n) = a + b n + c n^2          contacts, integration, communication
@@ -21,8 +27,8 @@ and 1 for n = 1. Least squares of relative errors, coefficients not below 0.
 import argparse, csv, json, math, os, pathlib, random, re, subprocess, sys, tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-CSV = HERE / "step_cost.csv"
-NUMBERS = (1, 3, 10, 30, 100, 300)
+FILES = {"lammps": HERE / "step_cost.csv", "morula": HERE / "step_cost_morula.csv"}
+NUMBERS = {"lammps": (1, 3, 10, 30, 100, 300), "morula": (1, 3, 10, 30, 100, 300, 1000)}
 SIDE, SPACING, FRACTION = 4, 1.5, 0.5
 SHAPE = "sample:stone,seed=7"
 REBUILD, SKIN, STEP = 50, 0.1, 2e-4
@@ -98,7 +104,7 @@ neigh_modify exclude molecule/intra all
 comm_modify cutoff 2.5
 {contact(30)}neigh_modify delay 0 every 5 check yes
 fix rigid all rigid/small molecule mol clump
-fix press all deform 1 x final {-BOX / 2} {BOX / 2} y final {-BOX / 2} {BOX / 2} z final {-BOX / 2} {BOX / 2} remap x flip no
+fix press all deform 1 x final {-BOX / 2} {BOX / 2} y final {-BOX / 2} {BOX / 2} z final {-BOX / 2} {BOX / 2} remap x flip no units box
 thermo 1000
 dump d all custom 2000 poses.txt id mol xu yu zu
 dump_modify d sort id format float %.15g
@@ -115,6 +121,8 @@ run 4000
     for _, body, *x in atoms:
         bodies.setdefault(body, []).append(x)
     assert len(bodies) == SIDE ** 3, len(bodies)
+    sides = [line.split() for line in lines[last - 3:last]]
+    assert all(abs(float(b) - float(a) - BOX) < 1e-6 for a, b in sides), sides
     # Three atoms far apart tell place and turn.
     at = made["Coords"]
     far = lambda i: max(range(len(at)), key=lambda j: math.dist(at[i], at[j]))
@@ -223,6 +231,78 @@ def measure(morula, n, places, folder, repeat):
     return each
 
 
+def quaternion(m):
+    """w, x, y, z of a turn."""
+    w = math.sqrt(max(0, 1 + m[0][0] + m[1][1] + m[2][2])) / 2
+    x, y, z = (math.sqrt(max(0, 1 + 2 * m[k][k] - m[0][0] - m[1][1] - m[2][2])) / 2 for k in range(3))
+    return (w, *(math.copysign(v, d) for v, d in ((x, m[2][1] - m[1][2]), (y, m[0][2] - m[2][0]), (z, m[1][0] - m[0][1]))))
+
+
+SCENE = """\
+[run]
+end = {end!r}
+step = {step!r}
+guard = false
+overlap = 1000.0
+[effects]
+normal = "linear"
+damping = "contact"
+tangential = "mindlin"
+[materials.stone]
+stiffness = {stiffness}
+shear = 0.2857
+restitution = 0.9
+friction = 0.5
+[templates.stone]
+{shape}
+density = 1
+material = "stone"
+[output]
+measures = ["contacts"]
+"""
+
+
+def processor(words):
+    """Processor seconds of a process, and what it printed."""
+    with tempfile.TemporaryFile("w+") as said:
+        child = subprocess.Popen(words, stdout=said, stderr=subprocess.STDOUT)
+        _, status, used = os.wait4(child.pid, 0)
+        said.seek(0)
+        text = said.read()
+    if status:
+        sys.exit(f"{' '.join(map(str, words))}: {text[-2000:]}")
+    return used.ru_utime + used.ru_stime, text
+
+
+def measure_ours(morula, n, places, folder, repeat):
+    """Seconds of our engine for a step of one particle, the least of some runs."""
+    random.seed(7)
+    copies = 4 if n <= 10 else 3 if n <= 30 else 2
+    repeat = repeat if n <= 100 else 1
+    shifts = [(BOX * (k - (copies - 1) / 2)) for k in range(copies)]
+    places = [((p[0] + x, p[1] + y, p[2] + z), turn) for p, turn in places
+              for x in shifts for y in shifts for z in shifts]
+    shape = f'shape = "stone"\nset = {{ seed = 7 }}\ncells = 64\nspheres = {n}\neffort = "{"normal" if n <= 300 else "draft"}"'
+    bodies = ""
+    for at, turn in places:
+        v = [random.gauss(0, 0.3) for _ in range(3)]
+        bodies += (f'[[bodies]]\ntemplate = "stone"\nposition = {[float(f"{x:.12g}") for x in at]}\n'
+                   f'rotation = {list(quaternion(turn))}\nvelocity = {v}\n')
+    step = STEP * min(1, 30 / n)
+    first = 50 if n <= 30 else 250
+    times, contacts = [], 0
+    for steps in (first, first + 400):
+        text = SCENE.format(end=steps * step, step=step, stiffness=STIFF, shape="ball = 0.5" if n == 1 else shape) + bodies
+        path = folder / f"ours_{n}_{steps}.toml"
+        path.write_text(text)
+        runs = [processor([str(morula), "simulate", str(path)]) for _ in range(repeat)]
+        times.append(min(r[0] for r in runs))
+        contacts = float(re.search(r"contacts\s+([\d.e+-]+)", runs[0][1]).group(1)) / len(places)
+    each = (times[1] - times[0]) / 400 / len(places)
+    print(f"n = {n}: {1e6 * each:.3f} us a step and particle, {contacts:.2f} contacts of a particle", flush=True)
+    return dict(n=n, steps=400, bodies=len(places), contacts=contacts, seconds=each)
+
+
 def least(rows, values):
     """Least squares of relative errors with coefficients of 0 or more: every choice of those that are not 0."""
     m, best = len(rows[0]), None
@@ -250,18 +330,25 @@ def least(rows, values):
     return best[1]
 
 
-def fit():
-    rows = [{k: float(v) for k, v in r.items()} for r in csv.DictReader(
-        line for line in open(CSV) if not line.startswith("#"))]
+def measured(solver):
+    """The rows of what was measured."""
+    lines = (line for line in open(FILES[solver]) if not line.startswith("#"))
+    return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(lines)]
+
+
+def fit(solver="lammps"):
+    rows = measured(solver)
+    for row in rows:
+        row.setdefault("neigh", 0.0)
     one = next(r for r in rows if r["n"] == 1)
-    parts = ("pair", "neigh", "comm", "output", "modify", "other")
+    parts = ("pair", "neigh", "comm", "output", "modify", "other") if solver == "lammps" else ("seconds",)
     unit = sum(one[p] for p in parts)
     clumps = [r for r in rows if r["n"] > 1]
-    step = [(sum(r[p] for p in parts) - r["neigh"]) / unit for r in clumps]
+    step = [(sum(r[p] for p in parts) - r["neigh"]) / unit for r in clumps]  # neigh is one of the parts, or 0
     lists = [r["neigh"] / unit * REBUILD for r in clumps]
     ns = [r["n"] for r in clumps]
     a, b, c = least([[1, n, n * n] for n in ns], step)
-    d, e = least([[n, n * n] for n in ns], lists)
+    d, e = least([[n, n * n] for n in ns], lists) if any(lists) else (0.0, 0.0)
     print(f"a = {a:.4g}, b = {b:.4g}, c = {c:.4g}; d = {d:.4g}, e = {e:.4g}")
     print("|n|measured|model|\n|---:|---:|---:|")
     for n, s, l in zip(ns, step, lists):
@@ -273,25 +360,32 @@ def fit():
 if __name__ == "__main__":
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     words.add_argument("--morula", default=str(HERE.parent / "target/release/morula"))
+    words.add_argument("--solver", choices=FILES, default="lammps")
     words.add_argument("--repeat", type=int, default=1)
     words.add_argument("--fit", action="store_true")
-    words.add_argument("--numbers", default=",".join(map(str, NUMBERS)))
+    words.add_argument("--numbers")
     words = words.parse_args()
     if not words.fit:
+        morula = pathlib.Path(words.morula).resolve()
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
-            places = poses(pathlib.Path(words.morula).resolve(), folder)
-            numbers = [int(n) for n in words.numbers.split(",")]
+            places = poses(morula, folder)
+            numbers = [int(n) for n in words.numbers.split(",")] if words.numbers else NUMBERS[words.solver]
             cpu = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo") if "model name" in line), "?")
-            version = subprocess.run(["lmp", "-h"], capture_output=True, text=True).stdout.split("\n")
-            version = next((line.strip() for line in version if "Parallel Simulator" in line), "LAMMPS")
-            keys = ("n", "steps", "lists", "pairs", "pair", "neigh", "comm", "output", "modify", "other")
-            with open(CSV, "w", newline="") as out:
-                out.write(f"# LAMMPS {version.split(' - ', 1)[-1]}; {cpu}; one process; seconds of a step and particle\n")
+            if words.solver == "lammps":
+                version = subprocess.run(["lmp", "-h"], capture_output=True, text=True).stdout.split("\n")
+                version = next((line.strip() for line in version if "Parallel Simulator" in line), "LAMMPS")
+                version, of = "LAMMPS " + version.split(" - ", 1)[-1], measure
+                keys = ("n", "steps", "lists", "pairs", "pair", "neigh", "comm", "output", "modify", "other")
+            else:
+                version = subprocess.run([str(morula), "--version"], capture_output=True, text=True).stdout.strip()
+                keys, of = ("n", "bodies", "steps", "contacts", "seconds"), measure_ours
+            with open(FILES[words.solver], "w", newline="") as out:
+                out.write(f"# {version}; {cpu}; one process; seconds of a step and particle\n")
                 table = csv.writer(out, lineterminator="\n")
                 table.writerow(keys)
                 for n in numbers:
-                    row = measure(pathlib.Path(words.morula).resolve(), n, places, folder, words.repeat)
+                    row = of(morula, n, places, folder, words.repeat)
                     table.writerow([f"{row.get(k, 0):.6g}" for k in keys])
                     out.flush()
-    fit()
+    fit(words.solver)

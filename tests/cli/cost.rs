@@ -138,6 +138,17 @@ fn a_choice_is_told_with_its_reason() {
     assert!(said.contains("UNSUPPORTED"), "{said}");
     fails(&cost(&["--counts", "5,2", "--no-files", "-q"]), 1);
     fails(&cost(&["-n", "0"]), 2);
+    // What a step costs, by the solver.
+    let step = |model: &[&str]| {
+        let printed = succeeds(&cost(&[&few[..], &["--json"], model].concat()));
+        let v: Value = serde_json::from_str(&printed).unwrap();
+        v["lines"][0]["points"][2]["step_cost"].as_f64().unwrap()
+    };
+    let by_name = [step(&["--step-model", "lammps"]), step(&["--step-model", "morula"])];
+    assert!(step(&[]) == by_name[0] && by_name[1] > 1.0 && by_name[1] != by_name[0]);
+    assert_eq!(step(&["--step-model", "1,2,3,4,5,10"]), 1.0 + 24.0 + 432.0 + 4.8 + 72.0);
+    fails(&cost(&["--step-model", "liggghts", "--no-files"]), 2);
+    fails(&cost(&["--step-model", "1,2,3", "--no-files"]), 2);
 }
 
 #[test]

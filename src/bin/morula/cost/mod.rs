@@ -128,10 +128,11 @@ struct Contacts {
     /// Poisson's ratio
     #[arg(long, value_name = "NU", default_value_t = 0.3, value_parser = not_negative)]
     poisson: f64,
-    /// Cost of a step with n spheres over one with single spheres, a + b n + c n² + (d n + e n²) / K,
-    /// K steps from one list of neighbours to the next [default: fitted to LAMMPS]
-    #[arg(long, value_name = "a,b,c,d,e,K", value_parser = numbers::<6>)]
-    step_model: Option<[f64; 6]>,
+    /// Cost of a step with n spheres over one with single spheres: as fitted to a solver, lammps or
+    /// morula (the engine of `morula simulate`), or a + b n + c n² + (d n + e n²) / K, K steps from
+    /// one list of neighbours to the next
+    #[arg(long, value_name = "SOLVER|a,b,c,d,e,K", default_value = "lammps", value_parser = step_model)]
+    step_model: StepModel,
     /// Greatest speed at which two particles meet
     #[arg(long, value_name = "V", default_value_t = 1.0, value_parser = not_negative)]
     speed: f64,
@@ -161,6 +162,19 @@ enum LevelsArg {
     Chained,
     /// Each holds all spheres of the one before (best, cover, euclidean)
     Nested,
+}
+
+fn step_model(text: &str) -> Result<StepModel, String> {
+    match text {
+        "lammps" => Ok(StepModel::LAMMPS),
+        "morula" => Ok(StepModel::MORULA),
+        _ if text.contains(',') => numbers::<6>(text).map(|[a, b, c, d, e, rebuild]| StepModel {
+            step: [a, b, c],
+            lists: [d, e],
+            rebuild,
+        }),
+        _ => Err(format!("{text} is neither lammps nor morula nor six numbers")),
+    }
 }
 
 fn count(text: &str) -> Result<usize, String> {
@@ -259,12 +273,10 @@ impl Args {
             levels,
             density: c.density,
             contact: ContactOptions { contact, speed: c.speed, contacts: 1 },
+            step: c.step_model,
             ..CurveOptions::default()
         };
         curve.quality.columns = self.columns;
-        if let Some([a, b, c, d, e, rebuild]) = c.step_model {
-            curve.step = StepModel { step: [a, b, c], lists: [d, e], rebuild };
-        }
         let method = |e: &Entry| {
             let o = e.options(1);
             (o.method, o.effort)
