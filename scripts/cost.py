@@ -6,13 +6,15 @@ usage: cost.py MORULA [--no-peers] [--out docs/cost] [--keep FOLDER] [--parts NA
 --keep FOLDER: parts that were made are kept there and not made again; --parts makes only these.
 
 Without MORULA_DATA the built-in particles are all there is. With MORULA_PEER_PYTHON, an interpreter that has the
-packages `multisphere` and `clump-python`, those run in the same session on the same meshes (scripts/peer.py), CLUMP
-with the parameters of Buchele et al. 2026, table 1. Times of others are processor seconds without imports, ours those
-of `morula compare --threads 1`. Writes OUT.md, OUT_mean.svg and, with chromium, OUT.png; what is missing is named.
+packages `multisphere` and `clump-python`, those run in the same session on the same meshes (scripts/peer.py and
+cost_peers.py), CLUMP with the parameters of Buchele et al. 2026, table 1. Times of others are processor seconds without imports, ours those
+of `morula compare --threads 1`. Writes OUT.md, OUT_peers.csv, OUT_mean.svg and, with chromium, OUT.png; what is missing is named.
 """
 import contextlib, io, json, math, os, pathlib, shutil, statistics, subprocess, sys, tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+import cost_peers, step_cost
 morula = os.path.abspath(sys.argv[1])
 out = sys.argv[sys.argv.index("--out") + 1] if "--out" in sys.argv else "docs/cost"
 peers = os.environ.get("MORULA_PEER_PYTHON") if "--no-peers" not in sys.argv else None
@@ -114,8 +116,6 @@ def hardware():
 def fitted():
     """What the fit tells; sets the model."""
     global MODEL
-    sys.path.insert(0, str(HERE))
-    import step_cost
     told = io.StringIO()
     with contextlib.redirect_stdout(told):
         MODEL = (*step_cost.fit(), step_cost.REBUILD)
@@ -126,18 +126,32 @@ def model():
     told = fitted()
     a, b, c, d, e, _ = MODEL
     first = open(HERE / "step_cost.csv").readline().lstrip("# ").strip()
+    row = lambda line: line.replace("|n|", "| n |") if line.startswith("|n|") else line
     say("## The cost of a step", "",
         "What a solver pays for a step with clumps of n spheres, over one with as many single spheres of the same volume:",
         "", f"    {a:.3g} + {b:.3g} n + {c:.3g} n² + ({d:.3g} n + {e:.3g} n²) / K        and 1 for n = 1", "",
         "with lists of neighbours made anew every K = 50 steps. Fitted by `scripts/step_cost.py` to LAMMPS: stones of the",
         "same places and turns at a solid fraction of 0.5, `gran/hooke/history`, `fix rigid/small` with our templates,",
-        f"skin 0.1 d_eq ({first}). Two neighbours have n² pairs of spheres; the lists hold those within the skin,",
-        "and the smaller the spheres the more these are: beyond a few dozen spheres a step costs more than n times",
-        "as much. A clump also allows a shorter step (`time step` below, over that of a sphere of the same mass, one spring):",
+        f"skin 0.1 d_eq ({first}). Rows beyond n = {step_cost.FITTED['lammps']} were not fitted. Two neighbours have n² pairs of spheres; the lists hold those within the skin,",
+        "and the smaller the spheres the more these are: a step costs more than n times as much, and the more so the more",
+        "spheres there are. A clump also allows a shorter step (`time step` below, over that of a sphere of the same mass, one spring):",
         "what simulated time costs is the quotient. In brackets: contacts and the rest + lists.", "")
-    for line in told.splitlines()[1:]:
-        say(line.replace("|n|", "| n |") if line.startswith("|n|") else line)
-    say("")
+    say(*map(row, told.splitlines()[1:]), "")
+    own = io.StringIO()
+    with contextlib.redirect_stdout(own):
+        a, b, c, _, _ = step_cost.fit("morula")
+    first = open(step_cost.FILES["morula"]).readline().lstrip("# ").strip()
+    say("### The library's own engine", "",
+        "`--step-model morula` (`StepModel::MORULA`; in C put the numbers into `step` and zeros into `lists`) prices with the",
+        "engine of `morula simulate` in place of LAMMPS:", "",
+        f"    {a:.3g} + {b:.3g} n + {c:.3g} n²        and 1 for n = 1", "",
+        "The same stones, places, turns, speeds, stiffness and steps, by `scripts/step_cost.py --solver morula`; free space in place of the",
+        f"periodic box ({first}). The engine keeps lists of bodies, not of spheres, and finds the spheres that touch by a tree in each clump:",
+        "a step costs about what it does with single spheres up to hundreds of spheres, and more only by the contacts themselves. Its lists",
+        "are in the cost of the step.", "")
+    rows = step_cost.measured("morula")
+    say(*map(row, own.getvalue().splitlines()[1:]), "",
+        "Contacts of a stone: " + ", ".join(f"{r['contacts']:.1f} at n = {r['n']:g}" for r in rows) + ".", "")
 
 
 def knee(line):
@@ -175,11 +189,24 @@ def lists():
         table(("n", "D", "coverage %", "overshoot %", "surface % d_eq", "roughness °", "inertia %", "time ms",
                "time step", "step", "simulated time"), rows, 0)
         stop = where(points)
-        cut = (points[-1]["D"] / stop["D"]) if stop["D"] else 1
+        before, after = points[-2:]
+        fall = 100 * (1 - (after["D"] / before["D"]) ** (1 / math.log2(after["n"] / before["n"])))
         paying.append((label(shape), stop["n"], f"{stop['D']:.4f}", f"{stop['step_cost']:.3g}", knee(found["best"]),
-                       f"{points[-1]['D']:.4f}", f"{cut:.2f}"))
+                       f"{points[-1]['D']:.4f}", fall))
         print(f"cost: {label(shape)} done", file=sys.stderr, flush=True)
     return paying
+
+
+def sentence(body, pays, there, step, bend, last, fall):
+    """Where more spheres stop paying, of one body."""
+    if pays < COUNTS[-1]:
+        text = f"- {body}: more than {pays} spheres no longer pay, D is {there} there and {last} with {COUNTS[-1]}"
+    else:
+        text = (f"- {body}: the shape itself does not end it, the last doubling before {COUNTS[-1]} spheres still takes {fall:.0f} % "
+                f"off D; what ends it is the cost of a step, {step} times that of a sphere there")
+    if bend != "–" and bend < COUNTS[-1]:
+        text += f"; against that cost the curve bends at {bend} already"
+    return text + "."
 
 
 def words(paying):
@@ -188,17 +215,50 @@ def words(paying):
         "*knee*: what `morula cost` chooses on its own, by D against the cost of a step (the last n where the curve has no",
         "knee).", "")
     table(("body", "pays to n", "D there", "step there", "knee", "D at the last n"), [p[:6] for p in paying])
-    steep = [p[0] for p in paying if p[1] >= COUNTS[-1]]
     for p in paying:
-        if p[1] < COUNTS[-1]:
-            say(f"For {p[0]} more than {p[1]} spheres no longer pay: D is {p[2]} there, {p[5]} with {COUNTS[-1]}.")
-    if steep:
-        say(f"For {', '.join(steep)} every doubling up to {COUNTS[-1]} spheres goes on taking a fifth or more off D at the end of",
-            f"the list: what ends it is the cost of a step, {paying[-1][3]} times that of a sphere there, not the shape.")
-    bent = [p for p in paying if p[4] != "–" and p[4] < COUNTS[-1]]
-    for p in bent:
-        say(f"Against the cost of a step {p[0]} bends at {p[4]} spheres: beyond it D falls less for what a step costs.")
+        say(sentence(*p))
     say("")
+
+
+def kept_table(name, heading):
+    """A table of another page of ours, by the heading above it."""
+    lines = (HERE.parent / "docs" / name).read_text().split(heading, 1)[1].splitlines()
+    first = next(i for i, line in enumerate(lines) if line.startswith("|"))
+    last = next((i for i in range(first, len(lines)) if not lines[i].startswith("|")), len(lines))
+    return lines[first:last]
+
+
+# Coverage in per cent and the spheres for it, Yuan 2019, table 2 and figure 11.
+YUAN = {"M&M": ((95, 48), (99, 181), (99.9, 461), (99.99, 675)),
+        "tablet": ((95.04, 96), (99, 456), (99.9, 1329)),
+        "bunny": ((95, 255), (99, 1147), (99.9, 2855), (99.99, 4090))}
+
+
+def papers():
+    say("## The papers' own curves", "",
+        "Inscribed spheres until a share of the volume is covered (`--method cover`, Yuan 2019) and spheres fitted to the",
+        "surface (`--method surface-fit`, Price et al. 2007), beside what the papers say. The tables are those of",
+        "[cover.md](cover.md) and [surface_fit.md](surface_fit.md), from where this page takes them; `cargo bench --bench cover",
+        "-- table2 figure6 figure9` and `scripts/surface_fit.py` make them.", "",
+        "### Yuan 2019, table 2: spheres for a coverage", "", *kept_table("cover.md", "## Table 2"), "",
+        "*paper*: its spheres; the others ours with the difference in brackets: analytic candidates and those of thinned voxels,",
+        "counted on all cells (V_p) or on those that any candidate covers (V_cs); *true*: exact coverage. A dash: out of reach.", "")
+    for body, points in YUAN.items():
+        (a, n), (b, m) = points[:2]
+        (c, k), (d, l) = points[-2:]
+        say(f"- {body}: the {m - n} spheres from {n} to {m} cover {b - a:.3g} % more, {(m - n) / (b - a):.0f} for each per cent; the "
+            f"{l - k} from {k} to {l} cover {d - c:.2g} %, {(l - k) / (d - c):.0f} for each: beyond {m} they no longer pay.")
+    say("", "### Yuan 2019, figure 6: coverage against n and the number of cells N", "",
+        *kept_table("cover.md", "## Figure 6"), "",
+        "Paper, another flat particle: 51, 50 and 49 spheres at 90 % for N = 60, 80 and 100, 41 with analytic candidates; V_cs / V_p 98.8 % at",
+        "60 and 99.0 % at 100. More cells than 50 along the diameter hardly pay.", "",
+        "### Yuan 2019, figure 9: spheres against sphericity", "", *kept_table("cover.md", "## Figure 9"), "",
+        "### Price et al. 2007, figure 7: errors of a clump limited to n", "",
+        "Of volume, centroid and spread (root of the covariance's eigenvalues), RMS over the particles, in per cent.", "",
+        *kept_table("surface_fit.md", "## Fewer spheres"), "",
+        "The paper's figure is a graph without numbers; in words it has an equilibrium near 10 spheres, beyond which more do not",
+        "improve the mass properties of its compact diamonds; unlimited, table 2, their RMS errors are 0.4, 0.4 and 0.3 %. Here the",
+        "error of the volume levels at 12 spheres, those of centroid and spread fall on to 20.", "")
 
 
 def routes():
@@ -262,8 +322,8 @@ def mean():
         rms = lambda key: math.sqrt(statistics.mean(p[key] ** 2 for p in some)) if some else 0
         errors.append((k, f"{100 * rms('union_inertia'):.2f}", f"{100 * rms('inertia'):.2g}"))
     say("After figure 7 of Price et al. 2007: RMS error of the inertia of `best` over the same particles, of the union of the",
-        "spheres and with corrected masses, in per cent. (Figure 7 by the method of that paper stands in",
-        "[surface_fit.md](surface_fit.md), figures 6 and 9 and table 2 of Yuan 2019 in [cover.md](cover.md).)", "")
+        "spheres and with corrected masses, in per cent. (Figure 7 by the method of that paper, and figures 6 and 9 and table 2",
+        "of Yuan 2019, stand below.)", "")
     table(("n", "union", "corrected masses"), errors, 0)
     say("With few spheres corrected masses leave more than the bare union does: a solver adds up the spheres, each with its own",
         "2/5 m r², and where overlapping ones share the mass no positive masses make up for the volume that lies between and",
@@ -314,26 +374,6 @@ def cells():
         yield shape, n, div, rmin
 
 
-def judged(spheres, shape):
-    path = work / "theirs.csv"
-    with open(path, "w") as f:
-        f.write("x,y,z,r\n" + "".join(",".join(f"{v:.17g}" for v in s) + "\n" for s in spheres))
-    found = json.loads(run("measure", path, "--target", shape, "--json", "-q"))
-    return found["D"]
-
-
-def theirs(kind, mesh, n, *more):
-    name = "_".join(map(str, (kind, pathlib.Path(mesh).stem, n, *more)))
-    path = keep / f"{name}.peer.json"
-    if path.exists():
-        return json.loads(path.read_text())
-    done = subprocess.run([peers, str(HERE / "peer.py"), kind, str(mesh), str(n), str(path), *map(str, more)],
-                          capture_output=True, text=True, timeout=PEER_SECONDS)
-    if done.returncode or not path.exists():
-        raise RuntimeError((done.stderr.strip() or "no result").splitlines()[-1][:120])
-    return json.loads(path.read_text())
-
-
 def beside():
     say("## Ours and theirs, at equal n and at equal time", "",
         "Same meshes, same run, one thread, processor seconds. `multisphere` (div 100) and CLUMP, Euclidean 3D, overlap",
@@ -359,8 +399,8 @@ def beside():
             best = None
             for kind, *more in ways:
                 try:
-                    got = theirs(kind, stl(shape), n, *more)
-                    d = judged(got["spheres"], shape)
+                    got = cost_peers.theirs(peers, kind, stl(shape), n, keep, *more, limit=PEER_SECONDS)
+                    d = cost_peers.judged(morula, got["spheres"], shape, work)
                 except (RuntimeError, subprocess.TimeoutExpired) as e:
                     note(f"{name} on {label(shape)}, n = {n}: {type(e).__name__} {str(e)[-160:]}")
                     continue
@@ -384,6 +424,24 @@ def beside():
     say("[k]: only k spheres came.", "")
 
 
+def everyone():
+    path = out + "_peers.csv"
+    if not (peers and root):
+        if not pathlib.Path(path).exists():
+            note("others' programs over all particles were not run")
+            return
+        note("others' programs over all particles: the figures are those of the last run")
+    else:
+        cost_peers.measure(morula, peers, root, path, keep)
+    head, rows, sentences = cost_peers.summary(path)
+    say(f"## Ours and theirs over real particles, n = {cost_peers.SPHERES}", "",
+        "`multisphere` at div 100; CLUMP, Euclidean 3D, overlap 0.95, div 100, rMin 2 % of the shortest edge of the box, one set for all.",
+        f"A run is ended after {cost_peers.LIMIT} s of processor time. Mean and standard deviation of D by our exact columns; *time*: median of",
+        f"theirs over ours, processor seconds, one thread (`scripts/cost_peers.py`; every row in [{pathlib.Path(path).name}]({pathlib.Path(path).name})).", "")
+    table(head, rows)
+    say(*sentences, "")
+
+
 def page():
     chromium = shutil.which("chromium")
     name = work / "page"
@@ -405,7 +463,8 @@ def others():
         note("others' programs were not run: MORULA_PEER_PYTHON and MORULA_DATA name them and their meshes")
 
 
-PARTS = dict(head=hardware, mean=mean, others=others, model=model, lists=lambda: words(lists()), levels=routes, page=page)
+PARTS = dict(head=hardware, mean=mean, others=others, everyone=everyone, model=model, lists=lambda: words(lists()), papers=papers,
+             levels=routes, page=page)
 option = lambda name: sys.argv[sys.argv.index(name) + 1] if name in sys.argv else None
 keep = pathlib.Path(option("--keep") or work)
 keep.mkdir(parents=True, exist_ok=True)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # The figures of the method best, what accuracy costs in time, and the picture at the top of the README.
 #   [MORULA_DATA=<data folder>] [MORULA_PEER_PYTHON=<python>] sh scripts/figures.sh [--full] [--no-peers]
-# Writes docs/best_figures.md, docs/best_figures.csv, docs/stone.png, docs/cost.md, docs/cost_mean.svg and
+# Writes docs/best_figures.md, docs/best_figures.csv, docs/stone.png, docs/cost.md, docs/cost_peers.csv, docs/cost_mean.svg and
 # docs/cost.png; names what is missing and goes on
 # (numpy, the data, the programs of others). --full: effort thorough as well, some minutes more.
 # Ends with 1 where a demand is not met.

@@ -4,8 +4,8 @@
 usage: peer.py mss|clump-eu|clump-fav|clump-fm MESH N OUT.json [DIV RMIN]
 
 Needs the PyPI packages `multisphere` (mss) and `clump-python` (the others), which are GPL-3: they are run,
-never linked or copied. Writes the spheres in the mesh's frame and the seconds of CPU of loading and making,
-without imports.
+never linked or copied. RMIN ending with % is a share of the box's shortest edge. Writes the spheres in the
+mesh's frame and the seconds of CPU of loading and making, without imports.
 """
 import contextlib, io, json, os, resource, sys, warnings
 
@@ -22,7 +22,7 @@ def cpu():
 
 
 peer, mesh, n, out = sys.argv[1], sys.argv[2], int(sys.argv[3]), sys.argv[4]
-div, rmin = (int(sys.argv[5]), float(sys.argv[6])) if len(sys.argv) > 6 else (100, 0)
+div, rmin = (int(sys.argv[5]), sys.argv[6]) if len(sys.argv) > 6 else (100, "0")
 with contextlib.redirect_stdout(io.StringIO()):
     if peer == "mss":
         import multisphere
@@ -32,8 +32,13 @@ with contextlib.redirect_stdout(io.StringIO()):
         seconds, centers, radii = cpu() - start, made.centers, made.radii
     else:
         import CLUMP
+        if not mesh.endswith(".stl"):
+            # It reads that format alone.
+            trimesh.load_mesh(mesh).export(out + ".stl")
+            mesh = out + ".stl"
         bounds = trimesh.load_mesh(mesh).bounds
         shortest = float((bounds[1] - bounds[0]).min())
+        rmin = float(rmin[:-1]) / 100 * shortest if rmin.endswith("%") else float(rmin)
         vertices = len(trimesh.load(mesh).vertices)
         start = cpu()
         if peer == "clump-eu":
