@@ -124,6 +124,8 @@ impl<'a> Left<'a> {
         }
         let nx = self.grid.dims[0];
         let mut found: Option<(f64, usize)> = None;
+        // Ways that rounding alone tells apart are equal.
+        let equal = f64::from(self.equal) * self.grid.spacing.amax();
         for (row, top) in self.rows.iter().enumerate() {
             if *top < best - self.equal {
                 continue;
@@ -133,7 +135,7 @@ impl<'a> Left<'a> {
                     continue;
                 }
                 let away = (self.center(i) - self.centroid).norm_squared();
-                if found.is_none_or(|(least, _)| away < least) {
+                if found.is_none_or(|(least, _)| away < least - equal) {
                     found = Some((away, i));
                 }
             }

@@ -22,6 +22,8 @@ pub enum Candidates {
     Analytic,
 }
 
+/// Radii that differ by less, in sizes, are equal.
+const EQUAL: f64 = 1e-9;
 /// Places that a thread takes at once, and between looks at the caller's wish to cancel.
 const CHUNK: usize = 32;
 const BATCH: usize = 64 * CHUNK;
@@ -44,8 +46,10 @@ pub(super) fn candidates(
     };
     spheres.retain(|s| s.radius > 0.0);
     run.count(|c| c.exact_distances += spheres.len() as u64);
-    // Stable: of equal ones the first of the lattice stays first.
-    spheres.sort_by(|a, b| b.radius.total_cmp(&a.radius));
+    // Stable: of ones that are equal but for rounding the first of the lattice stays first.
+    let size = solid.unit_moments().volume.cbrt();
+    let steps = |s: &Sphere| (s.radius / size / EQUAL).round();
+    spheres.sort_by(|a, b| steps(b).total_cmp(&steps(a)));
     Ok(spheres)
 }
 

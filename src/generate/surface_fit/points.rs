@@ -37,11 +37,18 @@ struct Point {
 impl Points {
     /// Spreads them over the surface of a body; refused where that may take more than `room` bytes.
     pub fn new(body: &Body, surface: &Surface, room: u64, run: &Run) -> Result<Points> {
-        let mut all = match body {
-            Body::Mesh(mesh) => on_mesh(mesh, room, run)?,
-            Body::Voxels(voxels) => on_voxels(voxels, run)?,
+        let (curve, mut all) = match body {
+            Body::Mesh(mesh) => {
+                let curve = Curve::around(mesh.vertices.iter().copied());
+                let all = on_mesh(mesh, &curve, room, run)?;
+                (curve, all)
+            }
+            Body::Voxels(voxels) => {
+                let far = Vec3::from(voxels.dims.map(|n| n as f64)).component_mul(&voxels.spacing);
+                (Curve::around([Vec3::zeros(), far].into_iter()), on_voxels(voxels, run)?)
+            }
         };
-        all.sort_by_key(|p| curve(&p.at));
+        all.sort_by_key(|p| curve.place(&p.at));
         let bounds = run.pool().map(all.len().div_ceil(CHUNK), |c| {
             let some = all.iter().skip(c * CHUNK).take(CHUNK);
             let bound = |p: &Point| {
@@ -84,7 +91,7 @@ fn spread(
     }
 }
 
-fn on_mesh(mesh: &Mesh, room: u64, run: &Run) -> Result<Vec<Point>> {
+fn on_mesh(mesh: &Mesh, curve: &Curve, room: u64, run: &Run) -> Result<Vec<Point>> {
     let what = "points of the surface";
     let n = mesh.faces.len();
     // The faces in order.
@@ -97,7 +104,7 @@ fn on_mesh(mesh: &Mesh, room: u64, run: &Run) -> Result<Vec<Point>> {
     let mut order: Vec<(u64, usize)> = reserve(what, n)?;
     for i in 0..n {
         let [a, b, c] = mesh.corners(i);
-        order.push((curve(&((a + b + c) / 3.0)), i));
+        order.push((curve.place(&((a + b + c) / 3.0)), i));
     }
     order.sort_unstable();
     let area = |&(_, i): &(u64, usize)| twice(i).norm();
@@ -108,7 +115,7 @@ fn on_mesh(mesh: &Mesh, room: u64, run: &Run) -> Result<Vec<Point>> {
     let mut out = reserve(what, POINTS)?;
     spread(order.iter().map(area), total, run.seed(), |k, draw| {
         if let Some(&(_, i)) = order.get(k) {
-            let [a, b, c] = mesh.corners(i);
+            let [a, b, c] = from_least(mesh.corners(i));
             let (u, v) = (draw.unit().sqrt(), draw.unit());
             let at = a * (1.0 - u) + b * (u * (1.0 - v)) + c * (u * v);
             let normal = twice(i);
@@ -116,6 +123,18 @@ fn on_mesh(mesh: &Mesh, room: u64, run: &Run) -> Result<Vec<Point>> {
         }
     });
     Ok(out)
+}
+
+/// The corners of a triangle from the least on, whichever the mesh names first.
+fn from_least([a, b, c]: [Vec3; 3]) -> [Vec3; 3] {
+    let before = |p: &Vec3, q: &Vec3| [p.x, p.y, p.z] < [q.x, q.y, q.z];
+    if before(&b, &a) && before(&b, &c) {
+        [b, c, a]
+    } else if before(&c, &a) && before(&c, &b) {
+        [c, a, b]
+    } else {
+        [a, b, c]
+    }
 }
 
 fn on_voxels(voxels: &Voxels, run: &Run) -> Result<Vec<Point>> {
@@ -171,15 +190,37 @@ fn bare(voxels: &Voxels, i: usize, side: usize) -> bool {
     voxels.cells.get(beside).is_none_or(|c| *c == 0)
 }
 
-/// Place along a Morton curve through the unit cube.
-fn curve(p: &Vec3) -> u64 {
-    let spread = |x: f64| {
-        let mut v = (x.clamp(0.0, 1.0) * 1_048_575.0) as u64;
-        v = (v | v << 32) & 0x001f_0000_0000_ffff;
-        v = (v | v << 16) & 0x001f_0000_ff00_00ff;
-        v = (v | v << 8) & 0x100f_00f0_0f00_f00f;
-        v = (v | v << 4) & 0x10c3_0c30_c30c_30c3;
-        (v | v << 2) & 0x1249_2492_4924_9249
-    };
-    spread(p.x) | spread(p.y) << 1 | spread(p.z) << 2
+/// A Morton curve through a cube about the body, whatever part of the unit frame that fills: the order of
+/// points, and with it which are drawn together, is the same in every unit of length.
+struct Curve {
+    lo: Vec3,
+    edge: f64,
+}
+
+/// The body within the curve's cube: no plane that halves a body lies where rounding would decide
+/// between two parts of the curve.
+const MARGIN: f64 = 0.137;
+const FILLED: f64 = 0.8;
+
+impl Curve {
+    fn around(points: impl Iterator<Item = Vec3>) -> Curve {
+        let none = (Vec3::repeat(f64::MAX), Vec3::repeat(-f64::MAX));
+        let (lo, hi) = points.fold(none, |(lo, hi), p| (lo.inf(&p), hi.sup(&p)));
+        Curve { lo, edge: (hi - lo).max().max(f64::MIN_POSITIVE) }
+    }
+
+    /// Place along it.
+    fn place(&self, p: &Vec3) -> u64 {
+        let spread = |x: f64| {
+            let mut v = (x.clamp(0.0, 1.0) * 1_048_575.0) as u64;
+            v = (v | v << 32) & 0x001f_0000_0000_ffff;
+            v = (v | v << 16) & 0x001f_0000_ff00_00ff;
+            v = (v | v << 8) & 0x100f_00f0_0f00_f00f;
+            v = (v | v << 4) & 0x10c3_0c30_c30c_30c3;
+            (v | v << 2) & 0x1249_2492_4924_9249
+        };
+        let at = (p - self.lo) / self.edge * FILLED;
+        let [x, y, z] = [at.x, at.y, at.z].map(|x| spread(x + MARGIN));
+        x | y << 1 | z << 2
+    }
 }
