@@ -12,6 +12,7 @@ fn point(n: usize, d: f64) -> Point {
         stiffness: 1.0,
         rayleigh: None,
         overlap: 0.0,
+        together: 1.0,
     };
     Point {
         asked: n,

@@ -14,10 +14,6 @@ use nalgebra::Matrix3;
 /// The part of the greatest stable step that is advised.
 pub const SAFE: f64 = 0.2;
 
-/// No limit for several contacts is more than this times that of all of them at the worst point, so
-/// that the advice is stable there, too, at 0.8 of that limit.
-const MOST: f64 = 4.0;
-
 /// What is advised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Advice {
@@ -74,15 +70,7 @@ pub fn advise(
     let mut found: Option<Advice> = None;
     for (k, t) in state.templates.iter().enumerate() {
         let own = time_step(t.spheres(), &[], &body(t), &options)?;
-        let limit = if contacts > 1 {
-            // Hertz at the overlap of that speed: as the radius to the power 0.4.
-            let worst = t.spheres().get(own.sphere as usize).map_or(1.0, |s| s.radius);
-            let power = if laws.normal == NormalLaw::Hertz { 0.4 } else { 0.0 };
-            let spring = |s: &Sphere| own.stiffness * (s.radius / worst).powf(power);
-            own.clump.max(together(t, spring, contacts).min(MOST * own.clump))
-        } else {
-            own.clump
-        };
+        let limit = own.together;
         if found.is_none_or(|f| limit < f.limit) {
             let sphere = t.order().get(own.sphere as usize).copied().unwrap_or(own.sphere);
             found = Some(Advice {
@@ -96,94 +84,6 @@ pub fn advise(
     }
     Ok(found)
 }
-
-/// The greatest stable step of two such bodies that touch in `contacts` contacts along one normal, each on
-/// a sphere of its own (on all of them equally, where there are fewer): √(2/λ), λ the greatest
-/// eigenvalue of Σ k w wᵀ, w = (n/√M, I^-½ (c × n)). Over which spheres, which normal n and which
-/// motion u: by turns, each the best for the others, from several normals.
-fn together(t: &Template, spring: impl Fn(&Sphere) -> f64, contacts: u32) -> f64 {
-    let (spheres, mass) = (t.spheres(), t.mass());
-    let root = Vec3::from(t.moments()).map(|i| 1.0 / i.sqrt());
-    let n = spheres.len().min(contacts as usize).max(1);
-    let times = f64::from(contacts) / n as f64;
-    let springs: Vec<f64> = spheres.iter().map(spring).collect();
-    let mut all: Vec<u32> = (0..spheres.len() as u32).collect();
-    let mut most = 0.0f64;
-    for start in STARTS {
-        let mut normal = Vec3::from(start).normalize();
-        // What a push where it is felt most does.
-        let push = |i: &u32| {
-            let turned = spheres[*i as usize].center.cross(&normal).component_mul(&root);
-            (normal / mass.sqrt(), turned)
-        };
-        let felt = |i: &u32| springs[*i as usize] * push(i).1.norm_squared();
-        let Some(first) = (0..spheres.len() as u32).max_by(|i, j| felt(i).total_cmp(&felt(j)))
-        else {
-            break;
-        };
-        let (mut v, mut w) = push(&first);
-        let size = (v.norm_squared() + w.norm_squared()).sqrt();
-        (v, w) = (v / size, w / size);
-        for turn in 0..TURNS {
-            let pushed = |i: &u32| {
-                let turned = spheres[*i as usize].center.cross(&normal).component_mul(&root);
-                (normal / mass.sqrt(), turned)
-            };
-            let held = |i: &u32| {
-                let (a, b) = pushed(i);
-                springs[*i as usize] * (a.dot(&v) + b.dot(&w)).powi(2)
-            };
-            if n < all.len() {
-                all.select_nth_unstable_by(n - 1, |i, j| {
-                    held(j).total_cmp(&held(i)).then(i.cmp(j))
-                });
-            }
-            let chosen = all.get(..n).unwrap_or(&all);
-            most = most.max(chosen.iter().map(held).sum());
-            let (mut next_v, mut next_w) = (Vec3::zeros(), Vec3::zeros());
-            let mut along = Matrix3::zeros();
-            for i in chosen {
-                let (a, b) = pushed(i);
-                let part = springs[*i as usize] * (a.dot(&v) + b.dot(&w));
-                next_v += a * part;
-                next_w += b * part;
-                let g =
-                    v / mass.sqrt() + w.component_mul(&root).cross(&spheres[*i as usize].center);
-                along += g * g.transpose() * springs[*i as usize];
-            }
-            let size = (next_v.norm_squared() + next_w.norm_squared()).sqrt();
-            if size <= 0.0 {
-                break;
-            }
-            (v, w) = (next_v / size, next_w / size);
-            // The motion settles between two turns of the normal.
-            if turn % 4 == 3 {
-                let eigen = along.symmetric_eigen();
-                normal = eigen.eigenvectors.column(eigen.eigenvalues.imax()).normalize();
-            }
-        }
-    }
-    if most > 0.0 { (2.0 / (times * most)).sqrt() } else { f64::MAX }
-}
-
-/// Normals to start from: half of the corners, edges and faces of a cube.
-const STARTS: [[f64; 3]; 13] = [
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 0.0, 1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, 1.0],
-    [0.0, 1.0, -1.0],
-    [1.0, 1.0, 1.0],
-    [1.0, 1.0, -1.0],
-    [1.0, -1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
-
-const TURNS: usize = 24;
 
 impl Advice {
     /// What to say of a step that is larger than the advice, once.

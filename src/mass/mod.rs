@@ -13,6 +13,7 @@ mod relax;
 mod share;
 mod single;
 mod timestep;
+mod together;
 mod transform;
 mod union;
 

@@ -1,5 +1,6 @@
 use super::super::correct::tests::{ellipsoid, of_union, scattered};
 use super::*;
+use nalgebra::Matrix3;
 
 fn spring(k: f64, contacts: u32) -> ContactOptions {
     ContactOptions { contact: Contact::Stiffness(k), speed: 0.5, contacts }
@@ -124,4 +125,32 @@ fn contacts_that_are_none_are_refused() {
     assert!(matches!(time_step(&[], &[], &body, &plain), Err(Error::Empty(_))));
     let e = time_step(&one, &[], &body, &spring(1e308, u32::MAX));
     assert!(e.is_err() || e.unwrap().clump > 0.0);
+}
+
+#[test]
+fn contacts_on_many_spheres_allow_more_than_all_at_the_worst_point() {
+    // Nine spheres in a plane, a step apart, of mass 1 and moments 1, 1, 2.
+    let at = |i: usize| i as f64 - 1.0;
+    let spheres: Vec<Sphere> =
+        (0..9).map(|i| Sphere::new(Vec3::new(at(i % 3), at(i / 3), 0.0), 0.6)).collect();
+    let moments = [1.0, 1.0, 2.0];
+    let body = Body {
+        mass: 1.0,
+        inertia: crate::math::Inertia { xx: 1.0, yy: 1.0, zz: 2.0, ..Default::default() },
+        principal: crate::math::PrincipalFrame {
+            moments,
+            axes: Matrix3::identity(),
+            quaternion: [1.0, 0.0, 0.0, 0.0],
+        },
+        center: Vec3::zeros(),
+        ..of_union(&spheres, 1.0)
+    };
+    let k = 1e4;
+    let found = time_step(&spheres, &[], &body, &spring(k, 9)).unwrap();
+    // All nine along the normal of the plane push 9 k; turning about its axes, 6 k and 3 k.
+    assert!((found.together / (2.0 / (9.0 * k)).sqrt() - 1.0).abs() < 1e-9);
+    // At a corner, across: 1 + 2 of the mass is felt.
+    assert!((found.together / found.clump - 3f64.sqrt()).abs() < 1e-9);
+    let one = time_step(&spheres, &[], &body, &spring(k, 1)).unwrap();
+    assert_eq!(one.together, one.clump);
 }
