@@ -155,6 +155,12 @@ module morula
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_CANCELLED = 4_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_EXHAUSTED = 5_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_STOPPED_COVERAGE = 6_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_WARNING_FEWER_SPHERES = 1_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_WARNING_FAR_AWAY = 2_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_WARNING_INEXACT_TARGET = 3_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_WARNING_THIN = 4_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_WARNING_COARSE_OVERLAP = 5_c_int32_t
+  integer(c_int32_t), parameter, public :: MORULA_WARNING_COARSE_DISTANCE = 6_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_TARGET_SOLID = 0_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_TARGET_UNION = 1_c_int32_t
   integer(c_int32_t), parameter, public :: MORULA_OBJECTIVE_EVEN = 0_c_int32_t
@@ -332,6 +338,8 @@ module morula
     integer(c_int64_t) :: samples = 0_c_int64_t
     integer(c_int32_t) :: never_exposed = 0_c_int32_t
     integer(c_int32_t) :: reserved = 0_c_int32_t
+    real(c_double) :: asymmetry = 0.0_c_double
+    integer(c_int64_t) :: symmetry_planes = 0_c_int64_t
   end type morula_surface
 
   type, bind(c), public :: morula_counters
@@ -397,6 +405,7 @@ module morula
     real(c_double) :: overlap = 0.0_c_double
     integer(c_int32_t) :: sphere = 0_c_int32_t
     integer(c_int32_t) :: reserved = 0_c_int32_t
+    real(c_double) :: together = 0.0_c_double
   end type morula_timestep
 
   type, bind(c), public :: morula_export_options
@@ -604,6 +613,8 @@ module morula
   public :: morula_files_size, morula_files_copy_bytes, morula_files_free
   public :: morula_clump_sphere_count, morula_clump_copy_spheres, morula_clump_stopped
   public :: morula_stopped_name, morula_clump_copy_note, morula_clump_moments
+  public :: morula_clump_warning_count, morula_clump_copy_warnings, morula_clump_copy_warning
+  public :: morula_warning_name
   public :: morula_clump_overlap, morula_clump_surface, morula_clump_copy_exposed_areas
   public :: morula_clump_copy_plane_contacts, morula_clump_counters
   public :: morula_fragments_serialize, morula_fragments_deserialize
@@ -1042,6 +1053,35 @@ module morula
       type(c_ptr), value :: length
       integer(c_int32_t) :: r
     end function morula_clump_copy_note
+    function morula_clump_warning_count(clump, count) bind(c) result(r)
+      import
+      type(c_ptr), value :: clump
+      integer(c_size_t), intent(inout) :: count
+      integer(c_int32_t) :: r
+    end function morula_clump_warning_count
+    function morula_clump_copy_warnings(clump, capacity, codes, figures, bounds) bind(c) result(r)
+      import
+      type(c_ptr), value :: clump
+      integer(c_size_t), value :: capacity
+      integer(c_int32_t), intent(inout) :: codes(*)
+      real(c_double), intent(inout) :: figures(*)
+      real(c_double), intent(inout) :: bounds(*)
+      integer(c_int32_t) :: r
+    end function morula_clump_copy_warnings
+    function morula_clump_copy_warning(clump, index, capacity, text, length) bind(c) result(r)
+      import
+      type(c_ptr), value :: clump
+      integer(c_size_t), value :: index
+      integer(c_size_t), value :: capacity
+      type(c_ptr), value :: text
+      type(c_ptr), value :: length
+      integer(c_int32_t) :: r
+    end function morula_clump_copy_warning
+    function morula_warning_name(warning) bind(c) result(r)
+      import
+      integer(c_int32_t), value :: warning
+      type(c_ptr) :: r
+    end function morula_warning_name
     function morula_clump_moments(clump, density, moments) bind(c) result(r)
       import
       type(c_ptr), value :: clump
@@ -1767,6 +1807,10 @@ module morula
     !> The spheres as xyzr(4, n): x, y, z, radius.
     procedure :: copy_spheres => clump_copy_spheres
     procedure :: stopped => clump_stopped
+    !> What limits it: numbers of MORULA_WARNING_*, figures found and bounds that they miss.
+    procedure :: warnings => clump_warnings
+    !> The sentence of warning `index`, counted from 1.
+    procedure :: warning => clump_warning
     procedure :: note => clump_note
     procedure :: moments => clump_moments
     procedure :: overlap => clump_overlap
@@ -1986,6 +2030,7 @@ module morula
   public :: morula_make_clumps, morula_break_all
   public :: morula_init, morula_text, morula_message, morula_name_of_status
   public :: morula_name_of_primitive, morula_name_of_stop, morula_labels
+  public :: morula_name_of_warning
   public :: morula_name_of_masses, morula_library_version, morula_parameter_count
   public :: morula_parameter, morula_orientations, morula_log_to, morula_log_sink
 
@@ -2041,6 +2086,13 @@ contains
     character(:), allocatable :: text
     text = morula_text(morula_stopped_name(stopped))
   end function morula_name_of_stop
+
+  !> The word for a MORULA_WARNING_* number.
+  function morula_name_of_warning(warning) result(text)
+    integer(c_int32_t), intent(in) :: warning
+    character(:), allocatable :: text
+    text = morula_text(morula_warning_name(warning))
+  end function morula_name_of_warning
 
   !> The name of built-in particle `index`, counted from 1; empty when there are no more.
   function morula_name_of_primitive(index) result(text)
@@ -2940,6 +2992,42 @@ contains
     integer(c_int32_t), intent(out), optional :: status
     call finish(morula_clump_stopped(self%handle, stopped), status)
   end subroutine clump_stopped
+
+  subroutine clump_warnings(self, codes, figures, bounds, status)
+    class(morula_clump_t), intent(in) :: self
+    integer(c_int32_t), allocatable, intent(out) :: codes(:)
+    real(c_double), allocatable, intent(out) :: figures(:), bounds(:)
+    integer(c_int32_t), intent(out), optional :: status
+    integer(c_size_t) :: n
+    integer(c_int32_t) :: code
+    n = 0
+    code = morula_clump_warning_count(self%handle, n)
+    allocate(codes(n), figures(n), bounds(n))
+    if (code == MORULA_STATUS_OK) then
+      code = morula_clump_copy_warnings(self%handle, n, codes, figures, bounds)
+    end if
+    call finish(code, status)
+  end subroutine clump_warnings
+
+  subroutine clump_warning(self, index, text, status)
+    class(morula_clump_t), intent(in) :: self
+    integer, intent(in) :: index
+    character(:), allocatable, intent(out) :: text
+    integer(c_int32_t), intent(out), optional :: status
+    character(kind=c_char), allocatable, target :: buffer(:)
+    integer(c_size_t), target :: at, length
+    integer(c_int32_t) :: code
+    at = int(index - 1, c_size_t)
+    length = 0
+    code = morula_clump_copy_warning(self%handle, at, 0_c_size_t, c_null_ptr, at_size(length))
+    allocate(buffer(length + 1))
+    buffer = c_null_char
+    if (code == MORULA_STATUS_OK) then
+      code = morula_clump_copy_warning(self%handle, at, length + 1, c_loc(buffer), c_null_ptr)
+    end if
+    text = morula_text(c_loc(buffer))
+    call finish(code, status)
+  end subroutine clump_warning
 
   subroutine clump_note(self, text, status)
     class(morula_clump_t), intent(in) :: self

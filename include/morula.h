@@ -420,6 +420,24 @@
 /// The coverage asked for was reached.
 #define MORULA_STOPPED_COVERAGE 6
 
+/// Fewer spheres than were asked for (the bound); the note says why.
+#define MORULA_WARNING_FEWER_SPHERES 1
+
+/// So far from the origin that places are rounded by this part of the size.
+#define MORULA_WARNING_FAR_AWAY 2
+
+/// The surface is open or crosses itself: mass, centre and inertia may be off by this part.
+#define MORULA_WARNING_INEXACT_TARGET 3
+
+/// So few cells of the grid lie across the mean thickness of the shape.
+#define MORULA_WARNING_THIN 4
+
+/// The mismatch is known to this part of itself only.
+#define MORULA_WARNING_COARSE_OVERLAP 5
+
+/// Greatest distances may be more by this part of the equivalent diameter.
+#define MORULA_WARNING_COARSE_DISTANCE 6
+
 /// The mass, centre and inertia of the true shape, mesh or voxels (the default).
 #define MORULA_TARGET_SOLID 0
 
@@ -918,6 +936,12 @@ typedef struct morula_surface {
   uint32_t never_exposed;
   /// 0.
   uint32_t reserved;
+  /// The greatest mismatch of the clump and its image in a plane of the target's body frame, over those of
+  /// the three planes in which the target is its own image; 0 for a clump that is, too. To about 1e-3.
+  double asymmetry;
+  /// How many of the three they are: there the target's surface and its image lie on average within
+  /// 0.3 % of the equivalent diameter. Of a body with equal moments other planes are not looked at.
+  uint64_t symmetry_planes;
 } morula_surface;
 
 /// What is known of the contacts of a particle. Fill it with morula_contact_options_init().
@@ -1154,6 +1178,10 @@ typedef struct morula_timestep {
   uint32_t sphere;
   /// 0.
   uint32_t reserved;
+  /// The same limit as `clump` where the N contacts push the same way on N spheres, those that are
+  /// stiffest together, instead of all at the worst point: for flat bodies that lie on each other.
+  /// Never less than `clump`, at most four times as much, the same for one contact.
+  double together;
 } morula_timestep;
 
 /// How far the masses of the spheres add up to the body.
@@ -2067,6 +2095,41 @@ int32_t morula_clump_copy_plane_contacts(const struct morula_clump *clump,
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_clump_counters(const struct morula_clump *clump,
                               struct morula_counters *counters);
+
+/// How many limits of the method, of the numbers or of the measure a clump meets; mostly 0.
+///
+/// Returns: MORULA_STATUS_OK; NULL_POINTER.
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_warning_count(const struct morula_clump *clump, size_t *count);
+
+/// Copies what limits a clump: of each limit its number, the figure found and the bound that it misses.
+///
+/// Parameters: `codes`, `figures` and `bounds` have room for `capacity` numbers each; the codes are
+/// of MORULA_WARNING_*.
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_copy_warnings(const struct morula_clump *clump,
+                                   size_t capacity,
+                                   int32_t *codes,
+                                   double *figures,
+                                   double *bounds);
+
+/// Copies the sentence of warning `index` (counted from 0) with its closing NUL.
+///
+/// Parameters: `text`, `capacity` and `length` as morula_clump_copy_note().
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; INDEX_OUT_OF_RANGE; BUFFER_TOO_SMALL (nothing is written).
+/// Threads: may run at the same time as other const functions on this handle.
+int32_t morula_clump_copy_warning(const struct morula_clump *clump,
+                                  size_t index,
+                                  size_t capacity,
+                                  char *text,
+                                  size_t *length);
+
+/// The word for a MORULA_WARNING_* number ("far away").
+///
+/// Returns: static text, never NULL ("unknown" for other numbers); do not free it.
+/// Threads: any thread at any time. Never fails.
+const char *morula_warning_name(int32_t warning);
 
 /// Makes clumps of one solid with several numbers of spheres: levels of detail.
 ///

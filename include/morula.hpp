@@ -50,12 +50,15 @@ inline void check(std::int32_t status) {
 /// The version of the library: 1000000 major + 1000 minor + patch, and as text.
 inline std::uint32_t version() noexcept { return morula_version(); }
 inline const char *version_string() noexcept { return morula_version_string(); }
-/// The word for a MORULA_STOPPED_* number, and for a MORULA_MASSES_* number.
+/// The word for a number of MORULA_STOPPED_*, of MORULA_MASSES_*, of MORULA_WARNING_*.
 inline const char *stopped_name(std::int32_t stopped) noexcept {
   return morula_stopped_name(stopped);
 }
 inline const char *masses_name(std::int32_t status) noexcept {
   return morula_masses_status_name(status);
+}
+inline const char *warning_name(std::int32_t warning) noexcept {
+  return morula_warning_name(warning);
 }
 
 /// A component sphere.
@@ -65,6 +68,13 @@ struct Sphere {
 };
 // The library reads and writes arrays of them in place.
 static_assert(sizeof(Sphere) == 4 * sizeof(double) && std::is_standard_layout_v<Sphere>);
+
+/// A limit that a clump meets: one of MORULA_WARNING_*, the figure found, the bound that it misses.
+struct Warning {
+  std::int32_t code;
+  double figure, bound;
+  std::string text;
+};
 
 /// Elements one after another, which something else holds: valid for the time of a call. A
 /// std::span converts to it, and it to one.
@@ -642,6 +652,21 @@ class Clump {
     return detail::text([&](std::size_t capacity, char *to, std::size_t *length) {
       return morula_clump_copy_note(get(), capacity, to, length);
     });
+  }
+  /// The limits of the method, of the numbers or of the measure that it meets; mostly none.
+  std::vector<Warning> warnings() const {
+    std::size_t n = 0;
+    check(morula_clump_warning_count(get(), &n));
+    std::vector<std::int32_t> codes(n);
+    std::vector<double> figures(n), bounds(n);
+    check(morula_clump_copy_warnings(get(), n, codes.data(), figures.data(), bounds.data()));
+    std::vector<Warning> all;
+    for (std::size_t i = 0; i < n; ++i)
+      all.push_back({codes[i], figures[i], bounds[i],
+                     detail::text([&](std::size_t capacity, char *to, std::size_t *length) {
+                       return morula_clump_copy_warning(get(), i, capacity, to, length);
+                     })});
+    return all;
   }
   /// Mass, centre and inertia of the target, in the input frame.
   morula_moments moments(double density = 1.0) const {

@@ -8,7 +8,7 @@ fn root() -> PathBuf {
 }
 
 /// The header's order of reading.
-const FILES: [&str; 26] = [
+const FILES: [&str; 27] = [
     "status",
     "callbacks",
     "choices",
@@ -24,6 +24,7 @@ const FILES: [&str; 26] = [
     "solid",
     "clump",
     "clump_read",
+    "warnings",
     "clumps",
     "cost",
     "sweep",

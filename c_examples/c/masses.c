@@ -1,5 +1,7 @@
 /* Weighs a clump, places it, asks for a time step, and writes it for LAMMPS. */
 #include "check.h"
+
+#include <stddef.h>
 #include <stdlib.h>
 
 #define DENSITY 2.0
@@ -170,6 +172,18 @@ int main(void) {
   contact.stiffness = 1e6;
   OK(morula_body_timestep(body, &contact, &stiff));
   NEAR(soft.clump / stiff.clump, 10, 1e-9);
+  CHECK(soft.together == soft.clump);
+  contact.contacts = 4;
+  OK(morula_body_timestep(body, &contact, &stiff));
+  CHECK(stiff.together >= stiff.clump && stiff.together <= 4 * stiff.clump);
+  NEAR(stiff.clump, soft.clump / 20, 1e-9 * soft.clump);
+  /* A caller that was built when the struct ended before `together`. */
+  morula_timestep old = {0};
+  old.struct_size = offsetof(morula_timestep, together);
+  OK(morula_body_timestep(body, &contact, &old));
+  CHECK(old.clump == stiff.clump && old.together == 0);
+  contact.contacts = 1;
+  OK(morula_body_timestep(body, &contact, &stiff));
   CHECK(soft.rayleigh == 0 && soft.effective_mass <= m.mass && soft.sphere < SPHERES);
   contact.stiffness = 0;
   contact.young = 1e9;

@@ -77,6 +77,11 @@ int main() {
   const auto spheres = clump.spheres();
   CHECK(spheres.size() == clump.size() && spheres[0].radius > 0.2);
   CHECK(clump.note().empty() == (clump.size() == 15));
+  const auto warnings = clump.warnings();
+  CHECK(warnings.empty() == (clump.size() == 15));
+  for (const auto &w : warnings)
+    CHECK(w.code == MORULA_WARNING_FEWER_SPHERES && w.figure < w.bound && w.text.size() > 10);
+  CHECK(clump.surface().symmetry_planes == 1 && clump.surface().asymmetry >= 0);
   {
     // A cache keeps one parent; a fragment of it arrives as it was sent.
     morula::Cache cache(1u << 30);

@@ -74,7 +74,8 @@ int main() {
   }
   morula::ContactOptions contact;
   contact.young = 5e7;
-  CHECK(body.timestep(contact).clump > 0 && body.timestep(contact).rayleigh > 0);
+  CHECK(body.timestep(contact).clump > 0 &&
+        body.timestep(contact).together == body.timestep(contact).clump && body.timestep(contact).rayleigh > 0);
   CHECK(body.spheres_f32().size() == 240);
 
   const auto files = body.files(MORULA_EXPORT_LIGGGHTS);

@@ -334,6 +334,8 @@ contains
     real(c_double) :: vertices(3, 12), xyzr(4, 15), in_body(4, 15), distances(2), areas(15)
     real(c_double) :: spacing(3), origin(3), r(3, 3), p(3)
     integer(c_int32_t) :: triangles(3, 20), status, stopped, contacts(2)
+    integer(c_int32_t), allocatable :: codes(:)
+    real(c_double), allocatable :: figures(:), bounds(:)
     integer(c_size_t) :: dims(3)
     character(:), allocatable :: text
     integer :: n, i, k
@@ -377,6 +379,15 @@ contains
     call check(len(morula_name_of_stop(stopped)) > 0 .and. stopped >= 0, 'stopped')
     call clump%note(text)
     call check((len(text) > 0) .eqv. (n < 15), 'the note says why')
+    call clump%warnings(codes, figures, bounds)
+    call check((size(codes) > 0) .eqv. (n < 15), 'and a warning says so')
+    do i = 1, size(codes)
+      call clump%warning(i, text)
+      call check(len(text) > 10 .and. figures(i) < bounds(i), 'with its figure')
+    end do
+    call clump%warning(size(codes) + 1, text, status)
+    call check(status == MORULA_STATUS_INDEX_OUT_OF_RANGE, 'no further warning')
+    call check(morula_name_of_warning(MORULA_WARNING_FAR_AWAY) == 'far away', 'its name')
     call clump%moments(2.0_c_double, m)
     call l_moments(m)
     call clump%overlap(overlap)

@@ -61,6 +61,11 @@ program fortran_masses
   contact%young = 5e7_c_double
   call body%timestep(contact, step)
   call check(step%clump > 0 .and. step%rayleigh > 0, 'a time step')
+  contact%contacts = 4_c_int32_t
+  call body%timestep(contact, again)
+  call check(again%together >= again%clump .and. again%together <= 4 * again%clump .and. &
+    again%clump < step%clump, 'of four contacts together')
+  contact%contacts = 1_c_int32_t
   call clump%timestep(contact, again, masses=options)
   call check(abs(again%clump - step%clump) < 1e-9_c_double * step%clump, 'weighed for a time step')
   call clump%transform(placed, 2.0_c_double, masses=options)

@@ -62,6 +62,7 @@ FRAME: INPUT=0 BODY=1 WORLD=2
 CUT: PLANES=0 WITHIN=1 POINTS=2 SEEDED=3 IMPACT=4
 WANT: NOTHING=0 OVERLAP=1 SURFACE=2 MOMENTS=4
 STOPPED: SPHERES=0 MISMATCH=1 RADIUS=2 DEADLINE=3 CANCELLED=4 EXHAUSTED=5 COVERAGE=6
+WARNING: FEWER_SPHERES=1 FAR_AWAY=2 INEXACT_TARGET=3 THIN=4 COARSE_OVERLAP=5 COARSE_DISTANCE=6
 TARGET: SOLID=0 UNION=1
 OBJECTIVE: EVEN=0 MAX_MIN=1 MAX_LAST=2
 INFEASIBLE: REFUSE=0 LEAST_ERROR=1
@@ -96,7 +97,7 @@ clump_options: Q spheres, d mismatch, d min_radius, d min_distance, d radius_off
 overlap: d mismatch, d error_bound, d eta, d iou, d coverage, d overshoot, d target_volume, d
   union_volume, d volume_error, d centroid_error, d moment_errors[3]
 surface: d protrusion, d rms_distance, d hausdorff, d distance_bound, d roughness, Q samples, I
-  never_exposed, I reserved
+  never_exposed, I reserved, d asymmetry, Q symmetry_planes
 contact_options: d stiffness, d young, d poisson, d speed, I contacts, I reserved
 cost_options: p counts, z count, Q most, d seconds, d density, p contact, d step[3], d lists[2],
   d rebuild, i levels, i surface, i masses, I quality_columns
@@ -111,7 +112,8 @@ swept: d resolution, Q cells[3], d solid_seconds, d deadline, Q lines, i method,
   status, i cut
 mass_options: d density, d m_min, d m_max, i target, i objective, i infeasible, i threads, p
   progress, p user
-timestep: d clump, d effective_mass, d stiffness, d rayleigh, d overlap, I sphere, I reserved
+timestep: d clump, d effective_mass, d stiffness, d rayleigh, d overlap, I sphere, I reserved, d
+  together
 masses: d mass, d m_min, d largest_m_min, d mass_residual, d centre_residual, d inertia_residual,
   d spread, d union_inertia_error, i status, I binding
 export_options: d length, d mass, i placed, I facets, s name, i precision, i reserved
@@ -179,6 +181,10 @@ i clump_copy_spheres pzp
 i clump_stopped pp
 s stopped_name i
 i clump_copy_note pzpp
+i clump_warning_count pp
+i clump_copy_warnings pzppp
+i clump_copy_warning pzzpp
+s warning_name i
 i clump_moments pdp
 i clump_overlap pp
 i clump_surface pp
@@ -807,6 +813,15 @@ class Clump(_Handle):
 
     def note(self):
         return self._text("clump_copy_note")
+
+    def warnings(self):
+        """The limits that it meets: of each the name, the figure found, the bound that it misses, a
+        sentence."""
+        n = self._number("clump_warning_count", ctypes.c_size_t)
+        codes, found = np.empty(n, dtype=np.int32), np.empty((2, n))
+        _call("clump_copy_warnings", self, n, codes.ctypes, found[0].ctypes, found[1].ctypes)
+        return [(_functions["warning_name"](int(codes[i])).decode(), found[0, i], found[1, i],
+                 self._text("clump_copy_warning", i)) for i in range(n)]
 
     def moments(self, density=1.0):
         return _filled("moments", "clump_moments", self, density)

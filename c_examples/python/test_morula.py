@@ -231,6 +231,7 @@ class Clumps(unittest.TestCase):
             self.assertTrue((clump.spheres()[:, 3] > 0).all())
             self.assertIn("sphere", clump.stopped())
             self.assertEqual(clump.note(), "")
+            self.assertEqual(clump.warnings(), [])
             self.assertTrue(0 < clump.overlap().mismatch < 0.3)
             self.assertGreater(clump.surface().hausdorff, 0)
             self.assertEqual(clump.exposed_areas().shape, (8,))

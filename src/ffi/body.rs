@@ -307,6 +307,7 @@ impl morula_body {
             overlap: t.overlap,
             sphere: t.sphere,
             reserved: 0,
+            together: t.together,
         };
         unsafe { fill(timestep, &value) }
     }

@@ -219,6 +219,19 @@ pub const MORULA_STOPPED_EXHAUSTED: i32 = 5;
 /// The coverage asked for was reached.
 pub const MORULA_STOPPED_COVERAGE: i32 = 6;
 
+/// Fewer spheres than were asked for (the bound); the note says why.
+pub const MORULA_WARNING_FEWER_SPHERES: i32 = 1;
+/// So far from the origin that places are rounded by this part of the size.
+pub const MORULA_WARNING_FAR_AWAY: i32 = 2;
+/// The surface is open or crosses itself: mass, centre and inertia may be off by this part.
+pub const MORULA_WARNING_INEXACT_TARGET: i32 = 3;
+/// So few cells of the grid lie across the mean thickness of the shape.
+pub const MORULA_WARNING_THIN: i32 = 4;
+/// The mismatch is known to this part of itself only.
+pub const MORULA_WARNING_COARSE_OVERLAP: i32 = 5;
+/// Greatest distances may be more by this part of the equivalent diameter.
+pub const MORULA_WARNING_COARSE_DISTANCE: i32 = 6;
+
 /// The mass, centre and inertia of the true shape, mesh or voxels (the default).
 pub const MORULA_TARGET_SOLID: i32 = 0;
 /// Those of the union of the spheres.

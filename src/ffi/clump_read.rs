@@ -223,6 +223,8 @@ pub unsafe extern "C" fn morula_clump_surface(
             samples: q.samples,
             never_exposed: q.never_exposed,
             reserved: 0,
+            asymmetry: q.asymmetry,
+            symmetry_planes: q.symmetry_planes.into(),
         };
         unsafe { fill(surface, &value) }
     })

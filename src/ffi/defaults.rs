@@ -9,11 +9,11 @@ use super::options::Versioned;
 use super::structs::*;
 
 macro_rules! versioned {
-    ($name:ident, $first:expr $(, added $($end:expr),+)?; $defaults:expr) => {
+    ($name:ident, $first:expr $(, added $($end:expr),*)?; $defaults:expr) => {
         unsafe impl Versioned for $name {
             const NAME: &'static str = stringify!($name);
             const FIRST: usize = $first;
-            $(const ADDED: &'static [usize] = &[$($end),+];)?
+            $(const ADDED: &'static [usize] = &[$($end),*];)?
             fn defaults() -> Self {
                 $defaults
             }
@@ -249,13 +249,13 @@ versioned!(
 );
 /// All-zero structs: every field of these is a number.
 macro_rules! filled {
-    ($($name:ident $first:expr),*) => {$(
-        versioned!($name, $first; unsafe { std::mem::zeroed() });
+    ($($name:ident $first:literal $($end:literal)*),*) => {$(
+        versioned!($name, $first, added $($end),*; unsafe { std::mem::zeroed() });
     )*};
 }
 filled!(
-    morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 64,
-    morula_counters 112, morula_masses 80, morula_timestep 56,
+    morula_report 216, morula_moments 232, morula_overlap 112, morula_surface 64 80,
+    morula_counters 112, morula_masses 80, morula_timestep 56 64,
     morula_fragment 368, morula_break_totals 48, morula_cost_point 168, morula_swept 80, morula_cache_counts 48
 );
 

@@ -113,6 +113,10 @@ pub struct morula_timestep {
     pub sphere: u32,
     /// 0.
     pub reserved: u32,
+    /// The same limit as `clump` where the N contacts push the same way on N spheres, those that are
+    /// stiffest together, instead of all at the worst point: for flat bodies that lie on each other.
+    /// Never less than `clump`, at most four times as much, the same for one contact.
+    pub together: f64,
 }
 
 /// How a file for a DEM code is written. Fill it with morula_export_options_init().

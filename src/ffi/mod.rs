@@ -46,6 +46,7 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 mod voxels;
+mod warnings;
 
 pub use body::*;
 pub use body_read::*;
@@ -73,3 +74,4 @@ pub use status::*;
 pub use structs::*;
 pub use sweep::*;
 pub use voxels::*;
+pub use warnings::*;

@@ -345,6 +345,12 @@ pub struct morula_surface {
     pub never_exposed: u32,
     /// 0.
     pub reserved: u32,
+    /// The greatest mismatch of the clump and its image in a plane of the target's body frame, over those of
+    /// the three planes in which the target is its own image; 0 for a clump that is, too. To about 1e-3.
+    pub asymmetry: f64,
+    /// How many of the three they are: there the target's surface and its image lie on average within
+    /// 0.3 % of the equivalent diameter. Of a body with equal moments other planes are not looked at.
+    pub symmetry_planes: u64,
 }
 
 /// What the calls did that led to a shape, a solid or a clump; zero for work that was not

@@ -13,6 +13,7 @@ mod packed;
 mod select;
 mod series;
 mod surface_fit;
+mod warn;
 
 use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result, figure};
@@ -159,6 +160,7 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
             Err(error) => return Err(error),
         }
     }
+    clump.warnings = warn::warnings(solid, options, &clump);
     clump.counters = run.counters();
     Ok(clump)
 }

@@ -75,6 +75,19 @@ pub(super) fn lattice(body: &Body, spheres: &[Sphere], n: usize) -> Option<Latti
     Some(Lattice::slanted(axis, n, corner(&all_lo), corner(&all_hi)))
 }
 
+/// A slanted lattice of about n × n columns over spheres, along the shortest edge of their box.
+pub(super) fn lattice_of(spheres: &[Sphere], n: usize) -> Option<Lattice> {
+    let none = (Vec3::repeat(f64::MAX), Vec3::repeat(-f64::MAX));
+    let (lo, hi) = spheres.iter().fold(none, |(lo, hi), s| {
+        let r = Vec3::repeat(s.radius);
+        (lo.inf(&(s.center - r)), hi.sup(&(s.center + r)))
+    });
+    let edges = hi - lo;
+    let axis = (0..3).rev().min_by(|&i, &j| edges[i].total_cmp(&edges[j]))?;
+    let corner = |p: &Vec3| [(axis + 1) % 3, (axis + 2) % 3].map(|a| p[a]);
+    (!spheres.is_empty()).then(|| Lattice::slanted(axis, n, corner(&lo), corner(&hi)))
+}
+
 /// Bounding box of a body; `None` when it is empty.
 pub(super) fn body_box(body: &Body) -> Option<(Vec3, Vec3)> {
     match body {

@@ -20,7 +20,7 @@ use serde::de::DeserializeOwned;
 
 const MAGIC: [u8; 8] = *b"MORULA\x1a\n";
 /// Of what follows the header. It rises with every change of a struct that is handed on.
-const VERSION: u16 = 1;
+const VERSION: u16 = 2;
 /// Bytes of the header.
 const HEADER: usize = 24;
 

@@ -96,7 +96,7 @@ const MOST_NEEDED: f64 = (16u64 << 20) as f64;
 const ACROSS_BOX: f64 = 4.0;
 /// Cells wanted across the mean thickness 2V/A (the thickness of a plate; half the
 /// diameter of a rod; a third of a ball's).
-const ACROSS_THICKNESS: f64 = 1.5;
+pub(crate) const ACROSS_THICKNESS: f64 = 1.5;
 /// Fewest cells across it that show a plate: a little below 1, which makes it one cell thick,
 /// not two that are half covered.
 const ACROSS_LEAST: f64 = 0.9;

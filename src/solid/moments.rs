@@ -150,7 +150,7 @@ pub(super) fn bounds(mesh: &Mesh) -> Option<(Vec3, Vec3)> {
 }
 
 /// Area of the faces.
-pub(super) fn area(mesh: &Mesh) -> f64 {
+pub(crate) fn area(mesh: &Mesh) -> f64 {
     (0..mesh.faces.len())
         .map(|i| {
             let [a, b, c] = mesh.corners(i);

@@ -62,7 +62,8 @@ fn the_keys_of_json_are_these() {
     let figures = "n D coverage overshoot protrusion seconds stopped spheres input eta iou \
          error_bound union_volume volume_error centroid_error moment_errors inertia_error \
          inertia_error_of_coverage rms_distance hausdorff \
-         distance_bound roughness never_exposed plane_contacts note notes volume \
+         distance_bound roughness never_exposed asymmetry symmetry_planes plane_contacts note notes \
+         warnings volume \
          equivalent_diameter cells frame position quaternion stages peak_bytes";
     let folder = folder("keys");
     let file = folder.join("c.csv");

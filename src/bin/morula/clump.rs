@@ -323,6 +323,7 @@ fn figures(
         "stopped": clump.stopped.name(),
         "note": clump.note,
         "notes": notes,
+        "warnings": figures::warnings(clump),
         "volume": moments.volume,
         "equivalent_diameter": equivalent_diameter(moments.volume),
         "cells": solid.grid().dims,

@@ -1,5 +1,6 @@
 //! The keys of quality in JSON. What was not measured is null.
 
+use morula::clump::Warning;
 use morula::mass::{coverage_rule, inertia_error, union_moments};
 use morula::measure::Quality;
 use morula::{Clump, Result, Run, Solid};
@@ -11,6 +12,16 @@ pub fn lacking(solid: &Solid, clump: &Clump, run: &Run) -> Result<Option<f64>> {
         return Ok(None);
     }
     Ok(Some(inertia_error(&solid.moments(), &union_moments(&clump.spheres, run)?)))
+}
+
+/// What limits the clump.
+pub fn warnings(clump: &Clump) -> Vec<Value> {
+    let one = |w: &Warning| {
+        json!({
+            "limit": w.limit.name(), "figure": w.figure, "bound": w.bound, "text": w.to_string(),
+        })
+    };
+    clump.warnings.iter().map(one).collect()
 }
 
 /// `lacking`: ε_w, which stands beside what a target shrunk to the same coverage would lack.
@@ -38,6 +49,8 @@ pub fn quality(
         "distance_bound": surface.map(|q| q.distance_bound),
         "roughness": surface.map(|q| q.roughness),
         "never_exposed": surface.map(|q| q.never_exposed),
+        "asymmetry": surface.map(|q| q.asymmetry),
+        "symmetry_planes": surface.map(|q| q.symmetry_planes),
     });
     match all {
         Value::Object(map) => map,

@@ -108,7 +108,14 @@ impl<'a> Growing<'a> {
         let frame = ground.solid.frame();
         let spheres =
             collected("the spheres", self.spheres.iter().map(|s| frame.sphere_to_input(s)))?;
-        Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
+        Ok(Clump {
+            spheres,
+            stopped,
+            note,
+            warnings: Vec::new(),
+            quality: None,
+            counters: run.counters(),
+        })
     }
 
     /// Why there are fewer spheres than were asked for.

@@ -191,7 +191,14 @@ pub(super) fn after(
     }
     let balls = state.balls;
     memory.keep(balls);
-    Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
+    Ok(Clump {
+        spheres,
+        stopped,
+        note,
+        warnings: Vec::new(),
+        quality: None,
+        counters: run.counters(),
+    })
 }
 
 /// The number of spheres.

@@ -119,7 +119,14 @@ pub(super) fn cover(solid: &Solid, options: &GenerateOptions, run: &Run) -> Resu
             ),
         ),
     };
-    Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
+    Ok(Clump {
+        spheres,
+        stopped,
+        note,
+        warnings: Vec::new(),
+        quality: None,
+        counters: run.counters(),
+    })
 }
 
 fn check(o: &GenerateOptions) -> Result<()> {

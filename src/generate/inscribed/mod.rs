@@ -127,7 +127,14 @@ pub(in crate::generate) fn inscribed(
     if short {
         stopped = Stopped::Exhausted;
     }
-    Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
+    Ok(Clump {
+        spheres,
+        stopped,
+        note,
+        warnings: Vec::new(),
+        quality: None,
+        counters: run.counters(),
+    })
 }
 
 /// The number of spheres.

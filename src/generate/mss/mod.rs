@@ -59,7 +59,14 @@ pub(super) fn mss(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result
     let made = made?;
     let spheres = collected("the spheres", made.balls.iter().map(|b| target.sphere(b)))?;
     let note = note(&made, options, spheres.len());
-    Ok(Clump { spheres, stopped: made.stopped, note, quality: None, counters: run.counters() })
+    Ok(Clump {
+        spheres,
+        stopped: made.stopped,
+        note,
+        warnings: Vec::new(),
+        quality: None,
+        counters: run.counters(),
+    })
 }
 
 /// What the search came to.

@@ -130,7 +130,14 @@ pub(super) fn packed(solid: &Solid, options: &GenerateOptions, run: &Run) -> Res
     };
     let spheres: Vec<Sphere> =
         collected("the spheres", spheres.iter().map(|s| frame.sphere_to_input(s)))?;
-    Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
+    Ok(Clump {
+        spheres,
+        stopped,
+        note,
+        warnings: Vec::new(),
+        quality: None,
+        counters: run.counters(),
+    })
 }
 
 /// The search for packings.

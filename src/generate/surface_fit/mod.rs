@@ -99,7 +99,14 @@ pub(super) fn surface_fit(solid: &Solid, options: &GenerateOptions, run: &Run) -
     let note = note(stopped, options, spheres.len());
     let spheres =
         collected("the spheres", spheres.iter().map(|s| solid.frame().sphere_to_input(s)))?;
-    Ok(Clump { spheres, stopped, note, quality: None, counters: run.counters() })
+    Ok(Clump {
+        spheres,
+        stopped,
+        note,
+        warnings: Vec::new(),
+        quality: None,
+        counters: run.counters(),
+    })
 }
 
 fn largest_first(spheres: &mut [Sphere]) {

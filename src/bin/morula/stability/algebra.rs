@@ -1,7 +1,7 @@
 //! Degenerate algebra: equal moments, spheres in a line or a plane, equations that only just have an
 //! answer, points on one sphere.
 
-use super::bodies::{Ask, solid, spheres, three};
+use super::bodies::{Ask, mismatch, solid, spheres, three};
 use super::{About, Bound, Found, Matrix, Miss};
 use morula::fragment::{Cut, CutOptions, cut};
 use morula::generate::Method;
@@ -50,13 +50,46 @@ const CELLS: About = About {
     why: "eight points on one sphere, four in one plane: cells meet in one corner and nothing is lost",
 };
 
+const FITTED: About = About {
+    measure: "D of surface_fit",
+    bound: Bound::AtMost(0.02),
+    why: "any four points of a ball lie on the same sphere: one remains, and least squares stay on it",
+};
+
+const COPLANAR: About = About {
+    measure: "D of surface_fit over that of the greatest ball inside",
+    bound: Bound::AtMost(1.05),
+    why: "four points of one face are refused as coplanar; what is left fits no worse than one ball",
+};
+
 pub fn run(m: &mut Matrix) {
+    fits(m);
     frames(m);
     masses(m);
     feasibility(m);
     unions(m);
     cells(m);
     depths(m);
+}
+
+/// Spheres through four points that lie on one sphere, or mostly in one plane.
+fn fits(m: &mut Matrix) {
+    for (name, segments) in [("ball of 24 segments", 24), ("ball of 96 segments", 96)] {
+        m.case(name, &FITTED, || {
+            let solid = solid(&Primitive::Sphere { radius: 0.5 }.mesh(segments)?, 32)?;
+            let found = spheres(&solid, &Ask::new(Method::SurfaceFit, 5))?;
+            mismatch(&solid, &found).map_err(Into::into)
+        });
+    }
+    for (name, edges) in [("cube", [1.0; 3]), ("plate 1:5", [1.0, 1.0, 0.2])] {
+        m.case(name, &COPLANAR, || {
+            let solid = solid(&Primitive::Box { edges }.mesh(8)?, 32)?;
+            let found = spheres(&solid, &Ask::new(Method::SurfaceFit, 20))?;
+            let middle = solid.moments().centroid;
+            let one = Sphere::new(middle, 0.5 * edges[2]);
+            Ok(mismatch(&solid, &found)? / mismatch(&solid, &[one])?)
+        });
+    }
 }
 
 fn frame_error(inertia: &Inertia) -> f64 {

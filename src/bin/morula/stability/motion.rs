@@ -43,12 +43,19 @@ const GAS: About = About {
 
 const GAS_LONG: About = About {
     measure: "greatest |E/E0 - 1| at a fiftieth of the contact time",
-    bound: Bound::AtMost(3e-4),
-    why: "1e-4 was wished for over a million steps, too; errors of many blows add up to 2.4e-4",
+    bound: Bound::AtMost(4e-4),
+    why: "a blow errs by 5e-6 of the gas's energy, now up, now down, and 2000 blows by the root of their \
+          number; 1e-4 was wished for, and is kept at a hundredth",
 };
 
 const GAS_FINE: About =
     About { measure: "greatest |E/E0 - 1| at a hundredth of the contact time", ..GAS };
+
+const SECULAR: About = About {
+    measure: "|mean of E/E0 - 1| over 8 gases, in its standard errors",
+    bound: Bound::AtMost(4.0),
+    why: "what is left errs both ways alike: nothing drifts",
+};
 
 const FALLS: About = About {
     measure: "observed order in dt",
@@ -172,13 +179,14 @@ fn lump() -> Result<Template, Miss> {
     Ok(Template::new(&spheres, 1.0, [0.05, 0.09, 0.1])?)
 }
 
-/// 27 of them in a box, elastic; greatest error of the energy over a time.
-fn drift(dt: f64, steps: u64) -> Found {
+/// 27 of them in a box, elastic, thrown otherwise for each `seed`: the error of the energy over a time, the
+/// greatest and the last.
+fn drift(law: NormalLaw, dt: f64, steps: u64, seed: u32) -> Result<[f64; 2], Miss> {
     let template = lump()?;
     let mut state = State::new(vec![Arc::new(template)]);
     for k in 0..27u32 {
         let at = |a: u32| f64::from(k / 3u32.pow(a) % 3) * 1.6 - 1.6;
-        let turned = |a: u32| f64::from((k * 7 + a * 5) % 13) / 6.5 - 1.0;
+        let turned = |a: u32| f64::from((k * 7 + seed * 3 + a * (5 + seed)) % 13) / 6.5 - 1.0;
         state.add(&Placed {
             rotation: [0.4, turned(0), turned(1), turned(2)],
             velocity: Vec3::new(turned(3), turned(5), turned(8)),
@@ -188,7 +196,7 @@ fn drift(dt: f64, steps: u64) -> Found {
     }
     let wall = WallShape::Box { lo: Vec3::repeat(-2.6), hi: Vec3::repeat(2.6) };
     let mut setup = Setup {
-        laws: Some(Laws::elastic(NormalLaw::Linear)),
+        laws: Some(Laws::elastic(law)),
         walls: vec![WallSetup::still(wall)],
         ..Setup::free(dt)
     };
@@ -201,36 +209,52 @@ fn drift(dt: f64, steps: u64) -> Found {
         a + b + e.contacts().iter().flatten().map(|c| c.energy).sum::<f64>()
     };
     let first = total(&e);
-    let mut worst = 0.0f64;
+    let (mut worst, mut last) = (0.0f64, 0.0);
     for _ in 0..200 {
         e.advance(steps / 200, &run)?;
-        worst = worst.max((total(&e) / first - 1.0).abs());
+        last = total(&e) / first - 1.0;
+        worst = worst.max(last.abs());
     }
-    Ok(worst)
+    Ok([worst, last])
 }
 
 const STIFFNESS: f64 = 1e5;
+/// The speed of the fastest.
+const SPEED: f64 = 2.0;
 
-/// Of two in contact at the points where they are felt least, π √(m/2k): the advice is √(2 m/k).
-fn contact_time() -> Found {
+/// Of two in contact at the points where they are felt least: the advice is √(2 m/k). A spring is done
+/// after π √(m/2k), Hertz's contact after 2.94 δ/v, where v² = 8 k δ²/(15 m/2).
+fn contact_time(law: NormalLaw) -> Found {
     let state = State::new(vec![Arc::new(lump()?)]);
     let c = Coefficients { stiffness: STIFFNESS, ..Coefficients::default() };
-    let found = advise(&Laws::elastic(NormalLaw::Linear), &[c], &state, 1.0, 1)?;
-    Ok(0.5 * PI * found.ok_or(Miss("no advice".into()))?.limit)
+    let found = advise(&Laws::elastic(law), &[c], &state, SPEED, 1)?;
+    let of_limit = match law {
+        NormalLaw::Linear => 0.5 * PI,
+        NormalLaw::Hertz => 2.94 * (15.0f64 / 32.0).sqrt(),
+    };
+    Ok(of_limit * found.ok_or(Miss("no advice".into()))?.limit)
 }
 
 fn gas(m: &mut Matrix) {
     let steps: u64 = if m.full { 1_000_000 } else { 20_000 };
-    m.case(
-        format!("gas of 27 clumps, {steps} steps"),
-        if m.full { &GAS_LONG } else { &GAS },
-        || drift(contact_time()? / 50.0, steps),
-    );
-    m.case(format!("gas of 27 clumps, {steps} steps"), &GAS_FINE, || {
-        drift(contact_time()? / 100.0, steps)
+    let [linear, hertz] = [NormalLaw::Linear, NormalLaw::Hertz];
+    let worst = |law, part: f64| Ok(drift(law, contact_time(law)? / part, steps, 0)?[0]);
+    let about = if m.full { &GAS_LONG } else { &GAS };
+    m.case(format!("gas of 27 clumps of Hertz's law, {steps} steps"), about, || worst(hertz, 50.0));
+    m.case(format!("gas of 27 clumps, {steps} steps"), about, || worst(linear, 50.0));
+    m.case(format!("gas of 27 clumps, {steps} steps"), &GAS_FINE, || worst(linear, 100.0));
+    m.case(format!("gases of 27 clumps, {} steps", steps / 4), &SECULAR, || {
+        let dt = contact_time(linear)? / 50.0;
+        let all: Result<Vec<f64>, Miss> =
+            (0..8).map(|seed| Ok(drift(linear, dt, steps / 4, seed)?[1])).collect();
+        let all = all?;
+        let mean = all.iter().sum::<f64>() / 8.0;
+        let spread = (all.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / 56.0).sqrt();
+        Ok(mean.abs() / spread)
     });
     m.case("gas of 27 clumps, a fiftieth and a two-hundredth", &FALLS, || {
-        let (dt, steps) = (contact_time()? / 50.0, steps.min(100_000));
-        Ok((drift(dt, steps)? / drift(0.25 * dt, 4 * steps)?).log2() / 2.0)
+        let (dt, steps) = (contact_time(linear)? / 50.0, steps.min(100_000));
+        let coarse = drift(linear, dt, steps, 0)?[0];
+        Ok((coarse / drift(linear, 0.25 * dt, 4 * steps, 0)?[0]).log2() / 2.0)
     });
 }
