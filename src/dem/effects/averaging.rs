@@ -5,7 +5,9 @@
 //! with S the sum of the elastic forces and n the contacts of a step, F += ΔS/n, and all that the contacts do is multiplied by F/S.
 //! A contact comes and goes with no force of its own, so F stays continuous when n changes; a load that is taken back by the
 //! way it came gives back what it took. F stays between S/(the greatest n so far) and S. A genuine support on
-//! three points is softened to that of one: that is the price.
+//! three points is softened to that of one: that is the price. And F depends on the way: contacts that part in another order than
+//! they came in keep some of what was put in, or give more. To bend F/S down on the way out, so that a pair never gives more than it
+//! took, was tried and taken back: bodies that shake while they lie on each other then sink in.
 //!
 //! As the spring of the pair grows by the mean of its contacts' springs, its dashpot is the mean of theirs: 1/n of their sum, not F/S,
 //! which is more where contacts came one after the other and damps too much. Each dashpot is eased by (S/F)/n of the step before.
