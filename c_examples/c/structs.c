@@ -44,7 +44,7 @@ int main(void) {
   ENDS_WITH(morula_report, threshold);
   ENDS_WITH(morula_moments, relative_error);
   ENDS_WITH(morula_overlap, moment_errors);
-  ENDS_WITH(morula_surface, reserved);
+  ENDS_WITH(morula_surface, symmetry_planes);
   ENDS_WITH(morula_counters, columns);
 
   morula_shape *shape = l_shape();

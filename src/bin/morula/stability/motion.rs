@@ -44,8 +44,8 @@ const GAS: About = About {
 const GAS_LONG: About = About {
     measure: "greatest |E/E0 - 1| at a fiftieth of the contact time",
     bound: Bound::AtMost(4e-4),
-    why: "a blow errs by 5e-6 of the gas's energy, now up, now down, and 2000 blows by the root of their \
-          number; 1e-4 was wished for, and is kept at a hundredth",
+    why: "a blow errs now up, now down, and 2000 blows by the root of their number; 1e-4 was wished for, \
+          and is kept at a hundredth",
 };
 
 const GAS_FINE: About =
