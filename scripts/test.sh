@@ -111,6 +111,7 @@ step "cargo test" cargo test --locked --no-fail-fast
 
 have gfortran || install gfortran || true
 have gfortran || skip "Fortran cases of CTest" "gfortran is not installed"
+have clang++ || skip "C++ cases of CTest with clang" "clang++ is not installed"
 have_pkg_config() { have pkg-config || have pkgconf; }
 have_pkg_config || install pkg-config || true
 have_pkg_config || skip "pkg-config cases of CTest" "pkg-config is not installed"
