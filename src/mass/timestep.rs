@@ -188,7 +188,8 @@ fn effective_mass(body: &Body, c: &Vec3) -> f64 {
 
 /// Modulus and radius of two equal spheres of a material.
 fn hertz(young: f64, poisson: f64, radius: f64) -> (f64, f64) {
-    (0.5 * young / (1.0 - poisson * poisson), 0.5 * radius)
+    // Bounded: the compiler reckons it also where a spring is given and no Poisson's ratio.
+    (0.5 * young / (1.0 - poisson * poisson).max(1e-12), 0.5 * radius)
 }
 
 /// The greatest overlap of two clumps of mass `mass` that meet centrally in one contact.
