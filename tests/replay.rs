@@ -49,12 +49,3 @@ fn serial() {
 fn calls() {
     replay("calls", 4, bodies::calls);
 }
-
-/// Writes a fragment to begin from: `cargo test --test replay -- --ignored`.
-#[test]
-#[ignore = "makes a file to begin from"]
-fn seed_of_a_fragment() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz_regressions/serial");
-    let bytes = [&[2], &bodies::a_fragment()[24..]].concat();
-    std::fs::write(folder.join("fragment"), bytes).unwrap();
-}

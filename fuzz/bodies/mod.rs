@@ -13,7 +13,7 @@ mod solver;
 
 pub use calls::calls;
 pub use files::{meshes, voxels};
-pub use serial::{a_fragment, serial};
+pub use serial::serial;
 
 use morula::ffi::*;
 use std::ffi::CStr;

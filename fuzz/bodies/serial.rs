@@ -56,21 +56,6 @@ fn parent() -> *const morula_parent {
         .0
 }
 
-/// The bytes of a fragment of that parent: where a search begins.
-pub fn a_fragment() -> Vec<u8> {
-    unsafe {
-        let (mut held, mut fragments, mut size) = (sized(), null_mut(), 0);
-        let (p, q) = (null(), null());
-        assert!(ok(morula_parent_held(parent(), 1.0, 1.0, p, q, null(), null(), &mut held)));
-        assert!(ok(morula_parent_break(parent(), null(), 0, &held, null(), &mut fragments)));
-        assert!(ok(morula_fragments_serialize(fragments, 0, 0, null_mut(), &mut size)));
-        let mut bytes = vec![0; size];
-        assert!(ok(morula_fragments_serialize(fragments, 0, size, bytes.as_mut_ptr(), &mut size)));
-        morula_fragments_free(fragments);
-        bytes
-    }
-}
-
 /// The first byte tells what the bytes are to hold, and whether they bring their own header.
 pub fn serial(data: &[u8]) {
     let mut input = Input(data);
