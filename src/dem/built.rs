@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 /// Those that are left out.
 const WITHOUT: Option<&str> = option_env!("MORULA_WITHOUT");
 
-/// Whether an effect is built.
+/// Whether an effect is built. Ask for it as `const { built(…) }`: the search is not folded where it is left to run time.
 pub(crate) const fn built(name: &str) -> bool {
     let Some(out) = WITHOUT else { return true };
     let (a, b) = (name.as_bytes(), out.as_bytes());

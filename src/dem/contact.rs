@@ -273,7 +273,9 @@ instances! {
 
 /// Whether all these laws are.
 const fn is_built<T: Tangential, R: Rolling, C: Cohesion>() -> bool {
-    (!T::ON || built("tangential")) && (!R::ON || built("rolling")) && (!C::ON || built("cohesion"))
+    (!T::ON || const { built("tangential") })
+        && (!R::ON || const { built("rolling") })
+        && (!C::ON || const { built("cohesion") })
 }
 
 /// Calls `v` with the type of these laws. Refused: combinations that are not built.

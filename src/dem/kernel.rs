@@ -127,7 +127,7 @@ impl Sums<'_> {
         self.force[b] += w.force;
         self.torque[a] += w.torques[0];
         self.torque[b] += w.torques[1];
-        if built("fragmentation")
+        if const { built("fragmentation") }
             && let Some(load) = &mut self.load
         {
             let size = w.force.norm();
@@ -143,7 +143,7 @@ impl Sums<'_> {
         self.wall_torque[a] += w.torques[0];
         self.force[b] += w.force;
         self.torque[b] += w.torques[1];
-        if built("fragmentation")
+        if const { built("fragmentation") }
             && let Some(load) = &mut self.load
         {
             load[b] += w.force.norm();

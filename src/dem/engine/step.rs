@@ -75,7 +75,7 @@ impl Engine {
         integrate::drift(&mut self.state, dt, self.setup.exact_rotation);
         self.step += 1;
         let time = self.time();
-        if built("motion") {
+        if const { built("motion") } {
             for wall in &mut self.walls {
                 if wall.to(time, dt) {
                     self.work.motion += 1;
@@ -84,17 +84,17 @@ impl Engine {
         }
         self.forces(run, self.setup.dt);
         integrate::kick(&mut self.state, dt);
-        for (i, wall) in self.walls.iter().enumerate().filter(|_| built("motion")) {
+        for (i, wall) in self.walls.iter().enumerate().filter(|_| const { built("motion") }) {
             let power = self.wall_force[i].dot(&wall.kin.v) + self.wall_torque[i].dot(&wall.kin.w);
             self.put_in -= power * dt;
         }
-        if built("fragmentation") && self.breaker.is_some() {
+        if const { built("fragmentation") } && self.breaker.is_some() {
             self.break_due(run)?;
         }
-        if built("wear") && self.wearer.is_some() {
+        if const { built("wear") } && self.wearer.is_some() {
             self.wear_due(run)?;
         }
-        if built("insertion") {
+        if const { built("insertion") } {
             self.insert()?;
         }
         if self.setup.guard && self.step.is_multiple_of(GUARD) {
@@ -108,19 +108,21 @@ impl Engine {
         let n = self.state.len();
         self.state.force.fill(Vec3::zeros());
         self.state.torque.fill(Vec3::zeros());
-        if built("gravity")
+        if const { built("gravity") }
             && let Some(g) = &self.setup.gravity
         {
             gravity::pull(&mut self.state, g);
             self.work.gravity += n as u64;
         }
-        if built("drag")
+        if const { built("drag") }
             && let Some(d) = &self.setup.drag
         {
             drag::slow(&mut self.state, d);
             self.work.drag += n as u64;
         }
-        let Some(kernel) = self.kernel.as_ref().filter(|_| built("normal")) else { return };
+        let Some(kernel) = self.kernel.as_ref().filter(|_| const { built("normal") }) else {
+            return;
+        };
         self.wall_force.fill(Vec3::zeros());
         self.wall_torque.fill(Vec3::zeros());
         self.broad.update(&self.state);

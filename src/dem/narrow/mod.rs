@@ -201,7 +201,11 @@ impl Pair {
             inverse_mass,
             // A body that is fixed against a wall has none to damp.
             mass: if inverse_mass > 0.0 { 1.0 / inverse_mass } else { 0.0 },
-            ease: if built("averaging") && context.averaging { self.average.ease() } else { 1.0 },
+            ease: if const { built("averaging") } && context.averaging {
+                self.average.ease()
+            } else {
+                1.0
+            },
         };
         let used = moved - self.made + context.range;
         let spheres = body.spheres();
@@ -255,7 +259,7 @@ impl Pair {
             };
             count += 1;
             elastic += e;
-            if built("averaging") && context.averaging {
+            if const { built("averaging") } && context.averaging {
                 alone += L::energy(coefficients, -m.gap, m.radius, &UNSTRETCHED[..L::WIDTH]);
             }
             force += f;
@@ -269,7 +273,7 @@ impl Pair {
         }
         self.touching = count;
         scratch.contacts += u64::from(count);
-        if built("averaging") && context.averaging {
+        if const { built("averaging") } && context.averaging {
             scratch.calls.averaging += 1;
             let share = self.average.share(count, elastic, alone);
             force *= share;
