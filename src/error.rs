@@ -1,5 +1,8 @@
 //! The one error type: each arm is one status of the C ABI.
 
+#[cfg(test)]
+pub(crate) mod faults;
+
 /// What every fallible function of the library returns.
 pub type Result<T> = std::result::Result<T, Error>;
 
@@ -150,7 +153,8 @@ pub fn fits(what: std::fmt::Arguments, bytes: u64, left: u64) -> Result<()> {
 /// Every reservation whose size depends on the input goes through here.
 pub fn reserve<T>(what: &str, len: usize) -> Result<Vec<T>> {
     let mut v = Vec::new();
-    v.try_reserve_exact(len).map_err(|_| {
+    let refused = refused();
+    v.try_reserve_exact(if refused { usize::MAX } else { len }).map_err(|_| {
         Error::OutOfMemory(format!(
             "no memory for {what}: {len} elements of {} bytes",
             std::mem::size_of::<T>()
@@ -180,7 +184,8 @@ pub fn collected<T>(what: &str, items: impl IntoIterator<Item = T>) -> Result<Ve
 /// that grow with the input where their length is not known before.
 pub fn push<T>(what: &str, v: &mut Vec<T>, value: T) -> Result<()> {
     if v.len() == v.capacity() {
-        v.try_reserve(1).map_err(|_| {
+        let refused = refused();
+        v.try_reserve(if refused { usize::MAX } else { 1 }).map_err(|_| {
             Error::OutOfMemory(format!(
                 "no memory for {what}: more than {} elements of {} bytes",
                 v.len(),
@@ -190,6 +195,17 @@ pub fn push<T>(what: &str, v: &mut Vec<T>, value: T) -> Result<()> {
     }
     v.push(value);
     Ok(())
+}
+
+/// Whether a test has this reservation fail.
+#[cfg(test)]
+fn refused() -> bool {
+    faults::step();
+    faults::turn(faults::Kind::Memory)
+}
+#[cfg(not(test))]
+const fn refused() -> bool {
+    false
 }
 
 /// A number as a sentence quotes it: with an exponent where it would be a long row of zeros.

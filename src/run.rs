@@ -5,6 +5,8 @@
 //! forked child and fight with a host's MPI ranks, so each call owns its pool,
 //! and nothing runs on a pool that the call did not build.
 
+#[cfg(test)]
+use crate::error::faults;
 use crate::error::{Error, Result};
 use rayon::prelude::*;
 use std::cell::{Cell, RefCell};
@@ -48,13 +50,19 @@ impl Pool {
             return Err(Error::InvalidArgument(format!("threads is {threads}, more than 1024")));
         }
         let quiet = QUIET.get();
+        #[cfg(test)]
+        let plan = faults::plan();
         let mut workers = Vec::with_capacity(threads);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .spawn_handler(|thread| {
                 let name = format!("morula-{}", thread.index());
+                #[cfg(test)]
+                let plan = plan.clone();
                 workers.push(std::thread::Builder::new().name(name).spawn(move || {
                     QUIET.set(quiet);
+                    #[cfg(test)]
+                    faults::take_over(plan);
                     thread.run();
                 })?);
                 Ok(())
@@ -81,6 +89,11 @@ impl Pool {
 
     /// `f(0), f(1), …, f(n−1)`, in this order whatever the number of threads.
     pub fn map<T: Send>(&self, n: usize, f: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
+        #[cfg(test)]
+        let f = |i| {
+            faults::step();
+            f(i)
+        };
         match &self.pool {
             Some(p) if n > 1 => {
                 // Few tasks may differ much: whoever is done first takes the next.
@@ -99,6 +112,11 @@ impl Pool {
         f: impl Fn(usize, &mut [T]) + Sync + Send,
     ) {
         let len = len.max(1);
+        #[cfg(test)]
+        let f = |i, chunk: &mut [T]| {
+            faults::step();
+            f(i, chunk)
+        };
         match &self.pool {
             Some(p) if data.len() > len => {
                 p.install(|| data.par_chunks_mut(len).enumerate().for_each(|(i, c)| f(i, c)));
@@ -295,6 +313,8 @@ impl<'a> Run<'a> {
     /// Reports progress in [0, 1]. Smaller values than the last are raised to it.
     /// After a cancel this stays `true`.
     pub fn cancelled(&self, fraction: f64) -> bool {
+        #[cfg(test)]
+        faults::step();
         if self.cancelled.get() {
             return true;
         }
@@ -327,6 +347,10 @@ impl<'a> Run<'a> {
 
     /// Whether the deadline has passed.
     pub fn late(&self) -> bool {
+        #[cfg(test)]
+        if self.deadline.get().is_some() && faults::turn(faults::Kind::Deadline) {
+            return true;
+        }
         self.deadline.get().is_some_and(|d| Instant::now() >= d)
     }
 

@@ -4,7 +4,7 @@
 //! No bytes may make the library panic (INTERNAL), give a status without a sentence, or give a number
 //! that is none.
 
-#![allow(unsafe_code, dead_code, clippy::unwrap_used, missing_docs)]
+#![allow(unsafe_code, dead_code, clippy::unwrap_used, clippy::redundant_closure_call, missing_docs)]
 
 mod calls;
 mod files;

@@ -74,13 +74,18 @@ fn quiet_hook() {
 }
 
 fn panic_text(payload: Box<dyn Any + Send>) -> String {
-    let text = match payload.downcast_ref::<String>() {
-        Some(s) => s.clone(),
-        None => payload.downcast_ref::<&str>().unwrap_or(&"no message").to_string(),
+    let payload = match payload.downcast::<String>() {
+        Ok(text) => return *text,
+        Err(payload) => payload,
     };
-    // A payload's destructor may panic in its turn; it is of the library's making and small.
-    std::mem::forget(payload);
-    text
+    match payload.downcast::<&str>() {
+        Ok(text) => text.to_string(),
+        Err(payload) => {
+            // Its destructor may panic in its turn; it is small.
+            std::mem::forget(payload);
+            "no message".to_string()
+        }
+    }
 }
 
 fn set_message(text: Option<&str>) {

@@ -44,6 +44,10 @@ mod status;
 mod structs;
 mod sweep;
 #[cfg(test)]
+mod failing;
+#[cfg(test)]
+mod roads;
+#[cfg(test)]
 mod tests;
 mod voxels;
 mod warnings;
