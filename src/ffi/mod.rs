@@ -25,6 +25,8 @@ mod cost;
 mod cost_structs;
 mod defaults;
 mod export;
+#[cfg(test)]
+mod failing;
 mod fenv;
 mod file;
 mod fragment;
@@ -36,6 +38,8 @@ mod options;
 mod parent;
 mod primitive;
 mod reshape;
+#[cfg(test)]
+mod roads;
 mod serial;
 mod shape;
 mod silhouettes;
@@ -43,10 +47,6 @@ mod solid;
 mod status;
 mod structs;
 mod sweep;
-#[cfg(test)]
-mod failing;
-#[cfg(test)]
-mod roads;
 #[cfg(test)]
 mod tests;
 mod voxels;
