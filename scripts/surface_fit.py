@@ -23,7 +23,7 @@ with open(pathlib.Path(data) / "MANIFEST.csv") as f:
 def clump(path, *words):
     done = subprocess.run(
         [morula, "clump", str(path), "--method", "surface-fit", "--json", "--quality", "overlap",
-         "--frame", "body", "--density", "1", "-o", os.devnull, "--format", "csv",
+         "--frame", "body", "--density", "1", "--masses", "none", "-o", os.devnull, "--format", "csv",
          *map(str, words)],
         capture_output=True, text=True)
     if done.returncode != 0:

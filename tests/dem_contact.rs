@@ -45,6 +45,26 @@ fn bounce(laws: Laws, c: Coefficients, v: f64, dt: f64) -> (f64, f64) {
     panic!("it never left");
 }
 
+/// Wherever in a step a blow begins and ends, an elastic ball keeps its energy: without what brief contacts are given it
+/// errs by up to 9e-4 of it with the linear law and 1e-4 with Hertz's.
+#[test]
+fn an_elastic_blow_keeps_its_energy_whatever_its_phase() {
+    // For balls of mass and speed 1, k = 1 and E = 3/4 on a radius of 1.
+    for (law, stiffness, time) in [
+        (NormalLaw::Linear, 1e4, PI / 100.0),
+        (NormalLaw::Hertz, 0.75e4, 2.943 * (1.25e-4f64).powf(0.4)),
+    ] {
+        let mut worst = 0.0f64;
+        for k in 0..100 {
+            let dt = time / (50.0 + 0.1 * f64::from(k));
+            let c = Coefficients { stiffness, ..Coefficients::default() };
+            let off = bounce(Laws::elastic(law), c, 1.0, dt).0.powi(2) - 1.0;
+            worst = worst.max(off.abs());
+        }
+        assert!(worst < 2e-6, "{law:?}: {worst:e}");
+    }
+}
+
 fn damped(normal: NormalLaw) -> Laws {
     Laws { damping: DampingLaw::Bodies, ..Laws::elastic(normal) }
 }

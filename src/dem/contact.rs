@@ -4,7 +4,7 @@
 use super::built::built;
 use super::effects::cohesion::{Cohesion, Dry, Jkr, Stress};
 use super::effects::damping::{Damping, Elasticity, Restitution, dashpot};
-use super::effects::normal::{Hertz, Linear, Normal};
+use super::effects::normal::{Hertz, Linear, Normal, brief};
 use super::effects::rolling::{Free, Resistance, Rolling};
 use super::effects::tangential::{NoSlip, Smooth, Spring, Tangential, Viscous};
 use super::effects::{Coefficients, Touch};
@@ -181,7 +181,11 @@ impl<N: Normal, D: Damping, T: Tangential, R: Rolling, C: Cohesion> Law
     #[inline(always)]
     fn act(t: &Touch, felt: bool, memory: &mut [f64], calls: &mut Calls) -> Option<Action> {
         let c = t.coefficients;
-        let push = N::push(c, t.overlap.max(0.0), t.radius);
+        let mut push = N::push(c, t.overlap.max(0.0), t.radius);
+        // Where nothing takes energy, none may come or go by how steps fall on blows.
+        if const { !D::ON && !C::ON } && t.overlap < t.stride {
+            push.force = brief::<N>(t, push.force);
+        }
         calls.normal += 1;
         let (friction, memory) = memory.split_at_mut(T::WIDTH);
         let (rolling, cohesion) = memory.split_at_mut(R::WIDTH);

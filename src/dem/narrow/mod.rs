@@ -208,6 +208,7 @@ impl Pair {
             },
         };
         let used = moved - self.made + context.range;
+        let stride = if context.averaging { 0.0 } else { a.stride + b.stride };
         let spheres = body.spheres();
         if L::WIDTH > 0 && first.parts() {
             self.hand_on(first, body, (&shift, &turn), L::WIDTH);
@@ -244,6 +245,7 @@ impl Pair {
                     coefficients,
                     motion: &motion,
                     dt: context.dt,
+                    stride,
                 };
                 short.live = true;
                 let own = &mut memory[at..at + L::WIDTH];
