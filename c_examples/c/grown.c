@@ -189,6 +189,35 @@ static int32_t fill_held(void *p) {
   return morula_parent_held(parent, 2, 1, NULL, NULL, NULL, NULL, p);
 }
 
+static morula_sweep *sweep;
+static int32_t fill_points(void *p) { return morula_cost_copy(cost, 3, p); }
+static int32_t fill_swept(void *p) { return morula_sweep_copy(sweep, 2, p); }
+
+/* Arrays go by the size that the first struct says. */
+static void filled_each(int32_t (*fill)(void *), size_t count, size_t first, size_t known) {
+  const size_t sizes[] = {first, known, known + 8, known + 200};
+  for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+    const size_t size = sizes[i];
+    unsigned char *p = malloc(count * size);
+    CHECK(p != NULL);
+    if (!p) return;
+    memset(p, 0xff, count * size);
+    memcpy(p, &size, sizeof size);
+    OK(fill(p));
+    for (size_t k = 0; k < count; k++) {
+      const unsigned char *one = p + k * size;
+      size_t said = 0;
+      memcpy(&said, one, sizeof said);
+      CHECK(said == size);
+      for (size_t b = known; b < size; b++) CHECK(one[b] == 0);
+    }
+    const size_t wrong = first - 1;
+    memcpy(p, &wrong, sizeof wrong);
+    STATUS(fill(p), MORULA_STATUS_STRUCT_SIZE);
+    free(p);
+  }
+}
+
 static void filled(int32_t (*fill)(void *), size_t first, size_t known) {
   const size_t sizes[] = {first, known, known + 1, known + 8, known + 200};
   for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
@@ -228,6 +257,17 @@ int main(void) {
   few.counts = counts;
   few.count = 3;
   OK(morula_cost_curve(solid, NULL, &few, &cost));
+  const double cells[2] = {12, 16};
+  const int32_t method = MORULA_METHOD_EUCLIDEAN;
+  const double deadline = 0;
+  morula_sweep_options over;
+  OK(morula_sweep_options_init(&over, sizeof over));
+  over.resolutions = cells;
+  over.resolution_count = 2;
+  over.methods = &method;
+  over.deadlines = &deadline;
+  over.method_count = over.deadline_count = 1;
+  OK(morula_sweep_from_shape(shape, NULL, NULL, &few, &over, &sweep));
   morula_held held = {0};
   held.struct_size = sizeof held;
   OK(fill_held(&held));
@@ -257,8 +297,11 @@ int main(void) {
   filled(fill_totals, 48, sizeof(morula_break_totals));
   filled(fill_counts, 48, sizeof(morula_cache_counts));
   filled(fill_held, 200, sizeof(morula_held));
+  filled_each(fill_points, 3, 168, sizeof(morula_cost_point));
+  filled_each(fill_swept, 2, 80, sizeof(morula_swept));
 
   morula_fragments_free(fragments);
+  morula_sweep_free(sweep);
   morula_cost_free(cost);
   morula_cache_free(cache);
   morula_parent_free(parent);

@@ -161,7 +161,16 @@ program fortran_fragments
   call clump%destroy()
   call solid%destroy()
   call shape%destroy()
+  ! A main program frees nothing by itself.
   deallocate (spheres)
+  if (allocated(packed)) deallocate (packed)
+  if (allocated(grown)) deallocate (grown)
+  if (allocated(masses)) deallocate (masses)
+  if (allocated(shares)) deallocate (shares)
+  if (allocated(planes)) deallocate (planes)
+  if (allocated(starts)) deallocate (starts)
+  if (allocated(of)) deallocate (of)
+  if (allocated(text)) deallocate (text)
   print '(i0, a, i0, a)', made, ' checks, ', failed, ' failed'
   if (failed > 0) error stop 1
 

@@ -13,13 +13,13 @@ use std::sync::Arc;
 
 const REBOUND: About = About {
     measure: "|rebound / speed - 1|",
-    bound: Bound::AtMost(1e-3),
+    bound: Bound::AtMost(1e-5),
     why: "an elastic blow gives back the speed, at a fiftieth of the contact time",
 };
 
 const BLOW: About = About {
     measure: "greatest |speed - exact| / speed of the blow",
-    bound: Bound::AtMost(1e-3),
+    bound: Bound::AtMost(1e-5),
     why: "two balls of any masses part as momentum and energy say",
 };
 
