@@ -42,7 +42,18 @@ fn voxels() {
 
 #[test]
 fn serial() {
-    replay("serial", 3, bodies::serial);
+    replay("serial", 3, |bytes| {
+        bodies::serial(bytes);
+    });
+}
+
+/// The files that fuzzing begins from are of today's format, else it would get no farther than the header.
+#[test]
+fn serial_begins_from_what_is_read() {
+    for name in ["shape", "voxels", "clump", "clump_plain", "fragment", "shape_with_header"] {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fuzz_regressions/serial/");
+        assert!(bodies::serial(&std::fs::read(format!("{path}{name}")).unwrap()), "{name}");
+    }
 }
 
 #[test]

@@ -11,9 +11,25 @@ fn crc(bytes: &[u8]) -> u32 {
     })
 }
 
+/// The beginning of bytes that this version of the library makes.
+fn beginning() -> &'static [u8] {
+    static BEGINNING: OnceLock<Vec<u8>> = OnceLock::new();
+    BEGINNING.get_or_init(|| unsafe {
+        let (mut shape, mut size) = (null_mut(), 0);
+        let (name, p) = (c"box".as_ptr(), null());
+        assert!(ok(morula_shape_from_primitive(name, p, null(), 0, 0, 0, null(), &mut shape)));
+        assert!(ok(morula_shape_serialize(shape, 0, null_mut(), &mut size)));
+        let mut all = vec![0; size];
+        assert!(ok(morula_shape_serialize(shape, size, all.as_mut_ptr(), &mut size)));
+        morula_shape_free(shape);
+        all.truncate(10);
+        all
+    })
+}
+
 /// The bytes with a header that is right for them, so that what follows it is read.
 fn with_header(kind: u8, body: &[u8]) -> Vec<u8> {
-    let mut all = b"MORULA\x1a\n\x01\0".to_vec();
+    let mut all = beginning().to_vec();
     all.extend([kind, 0]);
     all.extend(crc(body).to_le_bytes());
     all.extend((body.len() as u64).to_le_bytes());
@@ -56,8 +72,8 @@ fn parent() -> *const morula_parent {
         .0
 }
 
-/// The first byte tells what the bytes are to hold, and whether they bring their own header.
-pub fn serial(data: &[u8]) {
+/// The first byte tells what the bytes are to hold, and whether they bring their own header. Whether they were read.
+pub fn serial(data: &[u8]) -> bool {
     let mut input = Input(data);
     let choice = input.byte();
     let kind = choice % 3 + 1;
@@ -66,17 +82,21 @@ pub fn serial(data: &[u8]) {
         match kind {
             1 => {
                 let mut shape = null_mut();
-                if ok(morula_shape_deserialize(bytes.as_ptr(), bytes.len(), &mut shape)) {
+                let read = ok(morula_shape_deserialize(bytes.as_ptr(), bytes.len(), &mut shape));
+                if read {
                     look(shape);
                     morula_shape_free(shape);
                 }
+                read
             }
             2 => {
                 let mut clump = null_mut();
-                if ok(morula_clump_deserialize(bytes.as_ptr(), bytes.len(), &mut clump)) {
+                let read = ok(morula_clump_deserialize(bytes.as_ptr(), bytes.len(), &mut clump));
+                if read {
                     look_at_clump(clump);
                     morula_clump_free(clump);
                 }
+                read
             }
             _ => {
                 let (mut held, mut fragments) = (sized(), null_mut());
@@ -91,13 +111,14 @@ pub fn serial(data: &[u8]) {
                     null(),
                     &mut held
                 )));
-                if ok(morula_fragments_deserialize(
+                let read = ok(morula_fragments_deserialize(
                     parent(),
                     bytes.as_ptr(),
                     bytes.len(),
                     &held,
                     &mut fragments,
-                )) {
+                ));
+                if read {
                     look_at_fragments(fragments);
                     let mut again = null_mut();
                     // What the bytes say of the piece need not be true of the parent: any status.
@@ -107,6 +128,7 @@ pub fn serial(data: &[u8]) {
                     }
                     morula_fragments_free(fragments);
                 }
+                read
             }
         }
     }
