@@ -239,6 +239,10 @@ fn bounds(options: &MassOptions, n: usize, mass: f64) -> Result<(f64, Option<f64
 fn relative(shares: Vec<f64>, p: &Problem) -> Vec<f64> {
     let sum: f64 = shares.iter().sum();
     let mean = sum / p.n as f64;
+    // Spheres too small to have a volume share alike.
+    if !(mean > 0.0 && mean.is_finite()) {
+        return vec![p.clamp(1.0); p.n];
+    }
     shares.iter().map(|s| p.clamp(s / mean)).collect()
 }
 

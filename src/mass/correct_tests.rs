@@ -312,6 +312,20 @@ fn what_cannot_be_is_refused_with_the_reason() {
 }
 
 #[test]
+fn spheres_too_small_for_a_volume_take_the_least_mass() {
+    let mut spheres = scattered(40, 3.0);
+    let body = of_union(&spheres, 1.0);
+    let at = spheres[7].center;
+    for radius in [1e-100, 1e-160, 1e-309] {
+        spheres.push(Sphere::new(at, radius));
+        let m = correct(&spheres, &body, &MassOptions::default(), &run()).unwrap();
+        assert!(m.spread.is_finite() && m.spread < 10.0, "{radius:e}: {}", m.spread);
+        assert!(m.residuals.mass < 1e-12 && m.masses.iter().all(|m| m.is_finite()));
+        spheres.pop();
+    }
+}
+
+#[test]
 fn planes_and_lines_of_spheres_may_lie_anyhow() {
     // Across them the equations hold nothing but rounding where they are turned.
     let plane: Vec<_> = (0..9)

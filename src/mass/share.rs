@@ -80,7 +80,8 @@ fn share(s: &Sphere, near: &[Near]) -> f64 {
             part += column(near, x, y, half, &mut ends);
         }
     }
-    s.volume() * part / own
+    // A sphere may be too small to have a length.
+    if own > 0.0 { s.volume() * part / own } else { 0.0 }
 }
 
 /// ∫ dz / k over −half..half, k the number of spheres there, the own one among them.
