@@ -5,8 +5,9 @@
 //! the same one where what is left of the face between them has an area.
 
 use super::piece::Piece;
+use super::region::no_part;
 use super::{Mark, Region};
-use crate::error::{Error, Result, collected, filled, fits, push, reserve};
+use crate::error::{Result, collected, filled, fits, push, reserve};
 use crate::generate::Plane;
 use crate::math::Vec3;
 use crate::shape::Voxels;
@@ -291,8 +292,7 @@ impl Blocks<'_> {
     pub fn members(&self, region: &Region) -> Result<Option<Vec<bool>>> {
         let Some(anchor) = region.anchor else { return Ok(None) };
         let found = self.within(&region.planes, &[region.lo, region.hi])?;
-        let lost = || Error::Internal("a region is no part of its parent".into());
-        let own = found.component(self.place(anchor as usize)).ok_or_else(lost)?;
+        let own = found.component(self.place(anchor as usize)).ok_or_else(no_part)?;
         let mut members = filled("cells of a region", self.cells.len(), false)?;
         for (node, &c) in found.nodes.iter().zip(&found.of) {
             if let Some(m) = members.get_mut(node.cell).filter(|_| c as usize == own) {

@@ -4,6 +4,7 @@ use super::cap::Cap;
 use super::clip::{CAP, Side, Surface, View, cut};
 use super::ears::triangulate;
 use super::parts::{Part, Parts};
+use super::region::no_part;
 use super::{Mark, Region};
 use crate::error::{Error, Result, collected, count, filled, fits, push, reserve};
 use crate::generate::Plane;
@@ -199,14 +200,13 @@ impl<'a> Piece<'a> {
 
     /// What a region's planes leave of the parent, closed, and which of it is the region.
     pub fn of_region(mesh: &'a Mesh, region: &Region) -> Result<(Piece<'a>, Kin)> {
-        let lost = || Error::Internal("a region is no part of its parent".into());
-        let mut piece = Piece::whole(mesh).within(&region.planes)?.ok_or_else(lost)?;
+        let mut piece = Piece::whole(mesh).within(&region.planes)?.ok_or_else(no_part)?;
         piece.close()?;
         let Some(anchor) = region.anchor else { return Ok((piece, Kin(None))) };
         let view = piece.view();
         let parts = Parts::of(view, &[])?;
         let at = (0..view.faces.len()).find(|&i| u64::from(view.tag(i)) == anchor);
-        let body = parts.body(view.faces.get(at.ok_or_else(lost)?).ok_or_else(lost)?);
+        let body = parts.body(view.faces.get(at.ok_or_else(no_part)?).ok_or_else(no_part)?);
         let mut faces = filled("faces of a region", mesh.faces.len(), false)?;
         for (i, _) in view.faces.iter().enumerate().filter(|(_, f)| parts.body(f) == body) {
             if let Some(face) = faces.get_mut(view.tag(i) as usize) {

@@ -1,6 +1,7 @@
 //! One piece of a parent.
 
 use super::Mark;
+use crate::error::Error;
 use crate::generate::{HalfSpace, Plane};
 use crate::math::{Moments, UnitFrame, Vec3};
 
@@ -26,6 +27,13 @@ pub struct Region {
     pub(crate) anchor: Option<u64>,
     /// The cell of the cut that it comes from: the number of the seed, or of the side.
     pub(crate) cell: usize,
+}
+
+/// Of a region that its parent does not have: bytes may tell of one.
+pub(super) fn no_part() -> Error {
+    Error::InvalidArgument(
+        "the fragment is no part of its parent: the bytes it came from were not made by this library".into(),
+    )
 }
 
 impl Region {
