@@ -111,6 +111,7 @@ step "cargo test" cargo test --locked --no-fail-fast
 
 have gfortran || install gfortran || true
 have gfortran || skip "Fortran cases of CTest" "gfortran is not installed"
+have clang++ || install clang || true
 have clang++ || skip "C++ cases of CTest with clang" "clang++ is not installed"
 have_pkg_config() { have pkg-config || have pkgconf; }
 have_pkg_config || install pkg-config || true
@@ -123,7 +124,7 @@ have valgrind || install valgrind || true
 have valgrind || skip "valgrind cases of CTest" "valgrind is not installed"
 tree=build/test
 step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release \
-    -DMORULA_CARGO_TARGET_DIR="$(pwd)/target"
+    -DMORULA_CARGO_TARGET_DIR="$(pwd)/target" -DMORULA_VALGRIND=OFF
 step "cmake build" cmake --build "$tree"
 step "ctest" ctest --test-dir "$tree" --output-on-failure
 if have abidiff; then

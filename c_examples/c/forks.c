@@ -72,6 +72,7 @@ int main(void) {
   }
   stop = 1;
   for (int i = 0; i < 2; i++) pthread_join(threads[i], NULL);
+  CHECK(rounds[0] > 0 && rounds[1] > 0);
   CHECK(!clump(2, here));
   printf("%d children, while two threads made %d clumps\n", CHILDREN, rounds[0] + rounds[1]);
   morula_solid_free(solid);

@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define BODIES 8         /* that in.elbows pours */
 #define DENSITY 1200.0  /* kg/m^3 */
 #define TOLERANCE 1e-12 /* relative: LAMMPS reads the 17 digits of the template and adds up */
 
@@ -106,8 +107,8 @@ static void check(const char *body_path, const char *dump_path, const char *ther
     trace += got[1] + got[2] + got[3];
   }
   fclose(file);
-  if (bodies == 0) {
-    fprintf(stderr, "%s holds no body\n", dump_path);
+  if (bodies != BODIES) {
+    fprintf(stderr, "%s holds %d bodies, not %d\n", dump_path, bodies, BODIES);
     exit(1);
   }
   file = open_or_stop(thermo_path, "r");
