@@ -104,6 +104,32 @@ pub struct Quality {
     pub symmetry_planes: u32,
 }
 
+impl Quality {
+    /// Whether all figures are numbers.
+    pub(crate) fn is_finite(&self) -> bool {
+        let figures = [
+            self.mismatch,
+            self.eta,
+            self.iou,
+            self.coverage,
+            self.overshoot,
+            self.error_bound,
+            self.target_volume,
+            self.union_volume,
+            self.volume_error,
+            self.centroid_error,
+            self.protrusion,
+            self.rms_distance,
+            self.hausdorff,
+            self.distance_bound,
+            self.roughness,
+            self.asymmetry,
+        ];
+        let more = self.moment_errors.iter().chain(&self.exposed_areas);
+        figures.iter().chain(more).all(|x| x.is_finite())
+    }
+}
+
 /// Measures `spheres` (caller's frame) against `solid`.
 pub fn quality(
     solid: &Solid,

@@ -54,8 +54,12 @@ impl ClumpRecord {
         }
         let m = &found.moments;
         let mut all = m.centroid.iter().copied().chain(m.inertia.to_array());
-        if !(real(m.volume) && all.all(f64::is_finite)) {
+        let error = m.relative_error;
+        if !(real(m.volume) && all.all(f64::is_finite) && error.is_finite() && error >= 0.0) {
             return Err(Error::Format("the moments of the bytes are those of no body".into()));
+        }
+        if found.clump.quality.as_ref().is_some_and(|q| !q.is_finite()) {
+            return Err(Error::Format("a figure of quality of the bytes is not finite".into()));
         }
         Ok(found)
     }
