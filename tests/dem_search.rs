@@ -57,6 +57,11 @@ fn between() -> Between {
     }
 }
 
+/// What these laws read of it.
+fn between_of(laws: &Laws) -> Between {
+    if laws.damping == DampingLaw::None { Between::default() } else { between() }
+}
+
 /// Clumps of two kinds thrown into a box, while more are let in.
 fn scene(laws: Laws, between: Between) -> (Setup, State) {
     let mut state = State::new(vec![clump(40, 0.01), clump(11, 0.014)]);
@@ -138,9 +143,11 @@ fn threads_do_not_change_a_byte() {
         laws(),
         Laws { tangential: TangentialLaw::NoSlip, rolling: false, averaging: true, ..laws() },
         Laws { normal: NormalLaw::Linear, cohesion: CohesionLaw::Linear, ..laws() },
+        Laws::elastic(NormalLaw::Hertz),
+        Laws::elastic(NormalLaw::Linear),
     ];
     for laws in all {
-        let mut b = between();
+        let mut b = between_of(&laws);
         b.rolling = laws.rolling.then_some(0.1);
         b.stiffness = (laws.normal == NormalLaw::Linear).then_some(3e3);
         b.cohesion = (laws.cohesion != CohesionLaw::None).then_some(1e3);
@@ -158,8 +165,8 @@ fn threads_do_not_change_a_byte() {
 #[test]
 fn a_checkpoint_goes_on_to_the_same_bytes() {
     let averaged = Laws { averaging: true, ..laws() };
-    for laws in [laws(), averaged] {
-        let (mut setup, state) = scene(laws, between());
+    for laws in [laws(), averaged, Laws::elastic(NormalLaw::Hertz)] {
+        let (mut setup, state) = scene(laws, between_of(&laws));
         setup.insertion.push(Insertion {
             templates: vec![0, 1],
             material: 0,

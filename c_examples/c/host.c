@@ -108,9 +108,9 @@ static void flushed(void) {
   static double xyzr[30][4], same[30][4];
   const uint32_t all = MORULA_WANT_OVERLAP | MORULA_WANT_SURFACE | MORULA_WANT_MOMENTS;
   const unsigned flush = 0x8040; /* to zero, what comes out and what goes in */
-  /* Subnormal in the caller's unit itself: squares and cubes of its lengths. */
+  /* The smallest that is taken: parts of its moments of inertia are subnormal in the caller's unit. */
   const char *const key = "diameter";
-  const double tiny = 1e-11;
+  const double tiny = 1e-60;
   morula_shape *shape = NULL;
   OK(morula_shape_from_primitive("stone", &key, &tiny, 1, 24, 3, NULL, &shape));
   one_clump(shape, 2, all, same);

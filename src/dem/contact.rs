@@ -182,7 +182,7 @@ impl<N: Normal, D: Damping, T: Tangential, R: Rolling, C: Cohesion> Law
     fn act(t: &Touch, felt: bool, memory: &mut [f64], calls: &mut Calls) -> Option<Action> {
         let c = t.coefficients;
         let mut push = N::push(c, t.overlap.max(0.0), t.radius);
-        // Where nothing takes energy, none may come or go by how steps fall on blows.
+        // Where the law along the normal takes no energy, none may come or go by how steps fall on blows.
         if const { !D::ON && !C::ON } && t.overlap < t.stride {
             push.force = brief::<N>(t, push.force);
         }

@@ -25,7 +25,9 @@ pub(crate) struct Context<'a> {
     /// How far beyond touching a contact may act, and a little more for rounding: whether two spheres touch is
     /// never decided by a list.
     pub range: f64,
+    /// How far springs move on: not at all where forces are reckoned once more.
     pub dt: f64,
+    pub step: f64,
     /// Whether damping goes by the mass that the contact feels.
     pub felt: bool,
     pub averaging: bool,

@@ -164,6 +164,7 @@ impl Visitor for Exact<'_> {
                     coefficients: &c,
                     motion: &motion,
                     dt,
+                    step: dt,
                     stride: state.stride[0],
                 };
                 if let Some(action) = L::act(&touch, felt, &mut memory, &mut calls) {

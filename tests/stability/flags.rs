@@ -5,6 +5,11 @@
 
 use crate::stability::bodies::{Ask, METHODS};
 use morula::cost::{CurveOptions, curve};
+use morula::dem::advice::advise;
+use morula::dem::{
+    Coefficients, DampingLaw, Engine, Laws, NormalLaw, Placed, Setup, State, TangentialLaw,
+    Template, WallSetup, WallShape,
+};
 use morula::export::{ExportOptions, Format, Record, files};
 use morula::fragment::{Cut, CutOptions, Parent, ReclumpOptions, cut, reclump};
 use morula::generate::{Method, generate};
@@ -12,7 +17,7 @@ use morula::mass::{
     Body, Contact, ContactOptions, Infeasible, MassOptions, Objective, correct, time_step,
     union_moments,
 };
-use morula::math::Vec3;
+use morula::math::{Sphere, Vec3};
 use morula::measure::{QualityOptions, quality};
 use morula::shape::{Bodies, ImportOptions, Layout, Primitive};
 use morula::solid::{Resolution, SolidOptions};
@@ -142,4 +147,60 @@ fn no_step_raises_what_hosts_trap() {
         step(&mut raised, format!("{name}: cost"), || curve(&solid, &options, &run)).ok();
     }
     assert!(raised.is_empty(), "{} of them: {:#?}", raised.len(), raised);
+}
+
+/// Blows, rest and a time step of the engine, with and without damping and friction.
+#[test]
+fn no_step_of_a_simulation_raises_what_hosts_trap() {
+    let mut raised = Vec::new();
+    let run = Run::serial();
+    let damped = |normal| Laws {
+        damping: DampingLaw::Contact,
+        tangential: TangentialLaw::Mindlin,
+        ..Laws::elastic(normal)
+    };
+    for (name, laws) in [
+        ("linear, elastic", Laws::elastic(NormalLaw::Linear)),
+        ("hertz, elastic", Laws::elastic(NormalLaw::Hertz)),
+        ("linear, damped", damped(NormalLaw::Linear)),
+        ("hertz, damped", damped(NormalLaw::Hertz)),
+        ("hertz, averaged", Laws { averaging: true, ..damped(NormalLaw::Hertz) }),
+    ] {
+        let spheres = [-0.3, 0.0, 0.3].map(|x| Sphere::new(Vec3::new(x, 0.0, 0.0), 0.3));
+        let template = Template::new(&spheres, 1.0, [0.04, 0.1, 0.1]).unwrap();
+        let mut state = State::new(vec![Arc::new(template)]);
+        for k in 0..8 {
+            let at = |a: u32| f64::from(k >> a & 1) * 1.5 - 0.75;
+            let turn = f64::from(k) / 8.0;
+            state
+                .add(&Placed {
+                    rotation: [0.5, turn, 1.0 - turn, 0.2],
+                    velocity: Vec3::new(1.0 - turn, turn, -1.0),
+                    ..Placed::at(Vec3::new(at(0), at(1), at(2)))
+                })
+                .unwrap();
+        }
+        let wall = WallShape::Box { lo: Vec3::repeat(-1.6), hi: Vec3::repeat(1.6) };
+        let mut setup = Setup {
+            laws: Some(laws),
+            walls: vec![WallSetup::still(wall)],
+            gravity: Some(Vec3::new(0.0, 0.0, -9.81)),
+            ..Setup::free(2e-4)
+        };
+        setup.coefficients[0] = Coefficients {
+            stiffness: 1e5,
+            shear: 8e4,
+            damping: 0.3,
+            tangential_damping: 1.0,
+            friction: 0.4,
+            ..Coefficients::default()
+        };
+        let c = setup.coefficients.clone();
+        step(&mut raised, format!("{name}: time step"), || advise(&laws, &c, &state, 1.0, 4))
+            .unwrap();
+        let mut engine = Engine::new(setup, state).unwrap();
+        step(&mut raised, name.into(), || engine.advance(4000, &run)).unwrap();
+        assert!(engine.work().contacts > 100, "{name}: nothing touched");
+    }
+    assert!(raised.is_empty(), "{raised:#?}");
 }

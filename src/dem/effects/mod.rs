@@ -57,6 +57,8 @@ pub(crate) struct Touch<'a> {
     pub coefficients: &'a Coefficients,
     pub motion: &'a Motion,
     pub dt: f64,
+    /// The time step, also where springs do not move on.
+    pub step: f64,
     /// The most that the two have moved against each other in this step; 0 where contacts do not act by themselves.
     pub stride: f64,
 }

@@ -22,8 +22,9 @@ pub(crate) trait Normal: Copy + Debug + Send + Sync + 'static {
     fn push(c: &Coefficients, overlap: f64, radius: f64) -> Elastic;
     /// The work it takes to get there.
     fn energy(c: &Coefficients, overlap: f64, radius: f64) -> f64;
-    /// What a contact that lasts for a part t of a step pushes with, over the force after a whole one, so that the sum
-    /// over all steps is the integral: ζ(−p, 1) − ζ(−p, 1 + t) for a force by the overlap to the p.
+    /// What a contact that lasts for a part t of a step pushes with, over the force after a whole one: ζ(−p, 1) − ζ(−p, 1 + t)
+    /// for a force by the overlap to the p. The sum over all steps is then the integral, but for ζ(−p, 1) of that force at
+    /// each end, which is the same at both where they part as fast as they met.
     fn begun(part: f64) -> f64;
 }
 
@@ -40,13 +41,13 @@ pub(crate) fn brief<N: Normal>(t: &Touch, whole: f64) -> f64 {
         N::push(c, way, t.radius).force * N::begun(t.overlap / way)
     };
     let speed = t.half_velocity().dot(&t.normal);
-    let held = force(speed.abs() * t.dt);
+    let held = force(speed.abs() * t.step);
     if speed <= 0.0 {
         return held;
     }
     // They part at the speed after this kick.
     let mass = t.felt_mass();
-    if mass > 0.0 { force((speed + held / mass * t.dt) * t.dt) } else { held }
+    if mass > 0.0 { force((speed + held / mass * t.step) * t.step) } else { held }
 }
 
 /// A spring of stiffness k: F = k δ.

@@ -143,6 +143,7 @@ impl Engine {
             coefficients: &self.setup.coefficients,
             range: range(&self.setup, &s.templates),
             dt,
+            step: self.setup.dt,
             felt: self.setup.laws.is_some_and(|l| l.damping == DampingLaw::Contact),
             averaging: self.setup.laws.is_some_and(|l| l.averaging),
         };
@@ -213,6 +214,7 @@ impl Engine {
             coefficients: &self.setup.coefficients,
             range: range(&self.setup, &s.templates),
             dt: self.setup.dt,
+            step: self.setup.dt,
             felt: false,
             averaging: self.setup.laws.is_some_and(|l| l.averaging),
         };

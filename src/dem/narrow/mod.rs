@@ -245,6 +245,7 @@ impl Pair {
                     coefficients,
                     motion: &motion,
                     dt: context.dt,
+                    step: context.step,
                     stride,
                 };
                 short.live = true;

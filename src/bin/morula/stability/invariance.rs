@@ -2,7 +2,7 @@
 
 use super::bodies::{
     Arrays, Ask, apart, inverted, made, mismatch, moved, on_lattice, rotation, same_number,
-    shuffled, three,
+    shuffled, three, three_as_made,
 };
 use super::{About, Bound, Found, Matrix, Miss};
 use morula::generate::{BestOptions, Effort, Method, Symmetry, generate};
@@ -80,6 +80,10 @@ pub fn run(m: &mut Matrix) {
         threads(m, name, mesh);
     }
     methods(m, &bodies);
+    match three_as_made() {
+        Ok(bodies) => rounded(m, &bodies),
+        Err(error) => return m.case("bodies", &PERCENT, || Err(error.into())),
+    }
     found(m);
     symmetry(m);
 }
@@ -126,10 +130,20 @@ fn place(m: &mut Matrix, name: &str, mesh: &Arrays) {
     m.case(format!("{name} 1e8 sizes away, exactly"), &PLACES, || {
         Ok(exactly(mesh, &ask, 1.0, shift)? / (1e8 * 0.5 * f64::EPSILON))
     });
-    for far in [1e4, 1e8] {
-        let shift = [far / 3.0, -far / 7.0, far / 1.1];
-        m.case(format!("{name} {far:e} sizes away"), &PERCENT, || {
-            change(mesh, &moved(mesh, |p| [0, 1, 2].map(|i| p[i] + shift[i])), &ask)
+}
+
+/// Coordinates that are rounded where they are written down: by 1e-8 of the size, or by 1e-16.
+fn rounded(m: &mut Matrix, bodies: &[(&'static str, Arrays)]) {
+    for (name, mesh) in bodies {
+        let ask = Ask::new(Method::Best, 20);
+        for far in [1e4, 1e8] {
+            let shift = [far / 3.0, -far / 7.0, far / 1.1];
+            m.case(format!("{name} {far:e} sizes away, rounded"), &PERCENT, || {
+                change(mesh, &moved(mesh, |p| [0, 1, 2].map(|i| p[i] + shift[i])), &ask)
+            });
+        }
+        m.case(format!("{name}, rounded to single precision"), &PERCENT, || {
+            change(mesh, &moved(mesh, |p| p.map(|x| f64::from(x as f32))), &ask)
         });
     }
 }
@@ -159,7 +173,6 @@ fn description(m: &mut Matrix, name: &str, mesh: &Arrays) {
     let own = (0..mesh.1.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     case("vertices of each triangle its own", (corners, own));
     case("each triangle cut in four", subdivided(mesh));
-    case("rounded to single precision", moved(mesh, |p| p.map(|x| f64::from(x as f32))));
 }
 
 /// Each triangle cut at the middles of its edges, which every triangle has of its own.

@@ -129,7 +129,7 @@ fn shells(m: &mut Matrix) {
         let mesh = joined(joined(shell(1.0, 0.9)?, &inner), &core);
         Ok((solid(&mesh, 32)?.moments().volume - held(&mesh)).abs() / 8.0)
     });
-    m.case("a wall of one cell in voxels, best", &OUTSIDE, || {
+    m.case("a wall of one cell in voxels, inscribed", &OUTSIDE, || {
         let solid = hollow(14)?;
         let found = spheres(&solid, &Ask::new(Method::Inscribed, 60))?;
         let options = QualityOptions { overlap: false, ..QualityOptions::default() };
