@@ -1,7 +1,7 @@
 //! A clump, with what it was made for.
 
 use super::shape::check_frame;
-use super::{Kind, from_bytes, to_bytes};
+use super::{Kind, from_bytes, possible, to_bytes};
 use crate::clump::Clump;
 use crate::error::{Error, Result};
 use crate::math::{Moments, UnitFrame};
@@ -53,9 +53,7 @@ impl ClumpRecord {
             )));
         }
         let m = &found.moments;
-        let mut all = m.centroid.iter().copied().chain(m.inertia.to_array());
-        let error = m.relative_error;
-        if !(real(m.volume) && all.all(f64::is_finite) && error.is_finite() && error >= 0.0) {
+        if !possible(m) {
             return Err(Error::Format("the moments of the bytes are those of no body".into()));
         }
         if found.clump.quality.as_ref().is_some_and(|q| !q.is_finite()) {

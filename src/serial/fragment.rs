@@ -1,6 +1,6 @@
 //! A fragment: which part of its first parent it is, and its spheres.
 
-use super::{Kind, from_bytes, to_bytes};
+use super::{Kind, from_bytes, possible, to_bytes};
 use crate::error::{Error, Result, collected};
 use crate::fragment::{Mark, Parent, Region};
 use crate::generate::Plane;
@@ -79,10 +79,8 @@ pub fn fragment_from_bytes(parent: &Parent, bytes: &[u8]) -> Result<FragmentReco
     }
     let solid = parent.solid();
     let m = &found.moments;
-    let mut all = m.centroid.iter().copied().chain(m.inertia.to_array());
     let most = solid.unit_moments().volume * (1.0 + 1e-6);
-    let real = m.volume > 0.0 && m.volume <= most && m.relative_error.is_finite();
-    if !(real && all.all(f64::is_finite)) {
+    if !(possible(m) && m.volume <= most) {
         return bad("the moments of the bytes are those of no piece of the parent".into());
     }
     let near = |v: &Vec3| v.iter().all(|x| (-2.0..=3.0).contains(x));

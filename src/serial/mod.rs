@@ -15,6 +15,7 @@ pub use fragment::{FragmentRecord, fragment_from_bytes, fragment_to_bytes};
 pub use shape::{shape_from_bytes, shape_to_bytes};
 
 use crate::error::{Error, Result};
+use crate::math::Moments;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -23,6 +24,8 @@ const MAGIC: [u8; 8] = *b"MORULA\x1a\n";
 const VERSION: u16 = 2;
 /// Bytes of the header.
 const HEADER: usize = 24;
+/// Farther from its unit frame's origin no body lies, whose box has edges of 1 at most.
+const NEAR: f64 = 5.0;
 
 /// What bytes hold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +44,20 @@ impl Kind {
             _ => "something unknown",
         }
     }
+}
+
+/// Whether moments may be those of a body in its unit frame, at unit density: nothing of it is farther away than [`NEAR`].
+fn possible(m: &Moments) -> bool {
+    let [xx, yy, zz, xy, xz, yz] = m.inertia.to_array();
+    let most = 6.0 * NEAR * NEAR * m.volume;
+    let (real, near) = (m.volume.is_finite() && m.volume > 0.0, |x: f64| x.abs() <= NEAR);
+    let some = |x: f64| (-1e-9 * most..=most).contains(&x);
+    let error = m.relative_error;
+    real && m.centroid.iter().all(|x| near(*x))
+        && [xx, yy, zz].into_iter().all(some)
+        && [xy, xz, yz].into_iter().all(|x| x.abs() <= most)
+        && error.is_finite()
+        && error >= 0.0
 }
 
 /// The bytes of a value.
