@@ -78,7 +78,7 @@ fn femur() -> Option<Voxels> {
         ..SolidOptions::default()
     };
     let solid = Solid::new(&shape, &options, &run).unwrap();
-    let mask = solid.inside().to_vec();
+    let mask = solid.inside().unwrap().to_vec();
     Some(Voxels { name: "femur", spheres: 70, dims: solid.grid().dims, mask })
 }
 

@@ -206,10 +206,10 @@ fn real_volumes_keep_their_euler_number() {
         let shape = Shape::from_file(file, &FileOptions::default(), &run).unwrap();
         let solid = Solid::new(&shape, &SolidOptions::default(), &run).unwrap();
         let dims = solid.grid().dims;
-        let before = euler(dims, solid.inside());
+        let before = euler(dims, solid.inside().unwrap());
         for ends in [Ends::Surface, Ends::Curve] {
-            let skeleton = thin(dims, solid.inside(), ends, u64::MAX, &run).unwrap();
-            let mut after = vec![0u8; solid.inside().len()];
+            let skeleton = thin(dims, solid.inside().unwrap(), ends, u64::MAX, &run).unwrap();
+            let mut after = vec![0u8; solid.inside().unwrap().len()];
             skeleton.voxels.iter().for_each(|&n| after[n] = 1);
             assert_eq!(euler(dims, &after), before, "{file:?}");
             assert_eq!(skeleton.simple, 0);

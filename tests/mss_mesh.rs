@@ -91,7 +91,7 @@ fn a_slot_finer_than_the_cells_still_bounds_the_radii() {
     let mesh = slotted(0.004);
     let solid = solid(&mesh, 24);
     // No cell shows the slot.
-    let full = solid.inside().iter().filter(|c| **c != 0).count();
+    let full = solid.inside().unwrap().iter().filter(|c| **c != 0).count();
     assert_eq!(full, 24 * 24 * 24);
     let clump = make(&solid, 30, false, 0.0);
     assert_eq!(clump.spheres.len(), 30);

@@ -168,7 +168,7 @@ fn mismatch(solid: &Solid, spheres: &[Sphere]) -> f64 {
         }
     }
     let count = |f: &dyn Fn(u8, u8) -> bool| {
-        let pairs = solid.inside().iter().zip(&clump);
+        let pairs = solid.inside().unwrap().iter().zip(&clump);
         pairs.filter(|(s, c)| f(**s, **c)).count() as f64
     };
     let both = count(&|s, c| s != 0 && c != 0);
@@ -194,7 +194,7 @@ fn d_is_at_most_the_reference_s_on_its_own_voxels() {
             last = Some((row.shape.clone(), row.across, solid(&data, &row, &run)));
         }
         let (_, _, solid) = last.as_ref().unwrap();
-        let cells = solid.inside().iter().filter(|c| **c != 0).count();
+        let cells = solid.inside().unwrap().iter().filter(|c| **c != 0).count();
         assert_eq!(cells, row.cells, "{}: not the reference's voxels", row.shape);
         for (n, radius_offset) in [1.0, 0.0].into_iter().enumerate() {
             let options = GenerateOptions {

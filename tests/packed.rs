@@ -122,7 +122,7 @@ fn one_sphere_is_the_largest_that_fits() {
         let run = Run::serial();
         let surface = body.surface(&run).unwrap();
         let (grid, mut best) = (body.grid(), (Vec3::zeros(), 0.0));
-        for (i, _) in body.inside().iter().enumerate().filter(|(_, c)| **c == 1) {
+        for (i, _) in body.inside().unwrap().iter().enumerate().filter(|(_, c)| **c == 1) {
             let [nx, ny, _] = grid.dims;
             let p = grid.center(i % nx, i / nx % ny, i / (nx * ny));
             let depth = -surface.signed_distance(&p);

@@ -140,7 +140,7 @@ pub struct Curve {
 /// All clumps share the solid and its distance field. After a cancel, or once the deadline has
 /// passed, the curve ends with the points that there are; before the first one it is an error. A
 /// number of spheres for which the method fails is left out, and the reason kept; where that is
-/// so of all, the first is the error. But for seconds the result is the same for any machine and
+/// so of all, the first is the error, as is memory that runs out at any. But for seconds the result is the same for any machine and
 /// any number of threads, as long as no deadline is met.
 pub fn curve(solid: &Solid, options: &CurveOptions, run: &Run) -> Result<Curve> {
     check(options)?;
@@ -189,6 +189,8 @@ pub fn curve(solid: &Solid, options: &CurveOptions, run: &Run) -> Result<Curve> 
                 made.cut = true;
                 break;
             }
+            // Not a matter of this number alone.
+            Err(error @ Error::OutOfMemory(_)) => return Err(error),
             Err(error) => made.failed.push((asked, error)),
         }
     }

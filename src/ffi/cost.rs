@@ -146,7 +146,8 @@ pub(super) unsafe fn wanted(o: &morula_cost_options) -> Result<CurveOptions> {
 /// Returns: MORULA_STATUS_OK, also when the deadline passed or the callback cancelled after there
 /// was a line (ask morula_cost_cut()); the statuses of morula_clump_from_solid() and
 /// morula_clump_timestep() where no line can be made; EMPTY; UNSUPPORTED (levels that the method
-/// cannot nest). A number of spheres that fails while others do not is left out.
+/// cannot nest); OUT_OF_MEMORY (at any line). A number of spheres that else fails while others do
+/// not is left out.
 /// Ownership: the solid stays the caller's and may be freed at once; free *curve with
 /// morula_cost_free(). *curve is written only on success.
 /// Threads: any thread; the solid is only read. But for seconds the same bytes come out for any

@@ -77,9 +77,9 @@ impl<'a> Blocks<'a> {
     }
 
     /// Of the cells inside a solid.
-    pub fn of_grid(solid: &'a Solid) -> Blocks<'a> {
-        let (grid, cells, limit) = (solid.grid(), solid.inside(), solid.memory_limit());
-        Blocks { origin: grid.origin, spacing: grid.spacing, dims: grid.dims, cells, limit }
+    pub fn of_grid(solid: &'a Solid) -> Result<Blocks<'a>> {
+        let (grid, cells, limit) = (solid.grid(), solid.inside()?, solid.memory_limit());
+        Ok(Blocks { origin: grid.origin, spacing: grid.spacing, dims: grid.dims, cells, limit })
     }
 }
 

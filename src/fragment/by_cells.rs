@@ -37,7 +37,7 @@ pub(super) fn of_blocks(
                 run.check(0.0, "cutting columns")?;
                 columns.push(Columns::within(solid.body(), lattice, limit, 0, run)?);
             }
-            (Blocks::of_grid(solid), *Piece::whole(mesh).bounds(), Some(columns))
+            (Blocks::of_grid(solid)?, *Piece::whole(mesh).bounds(), Some(columns))
         }
     };
     let members = region.map(|r| blocks.members(r)).transpose()?.flatten();

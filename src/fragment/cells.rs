@@ -294,7 +294,7 @@ fn seeds(
     solid: &Solid,
     region: Option<&Region>,
 ) -> Result<Vec<Vec3>> {
-    let (grid, inside) = (solid.grid(), solid.inside());
+    let (grid, inside) = (solid.grid(), solid.inside()?);
     let in_body = |p: &Vec3| {
         let at = (p - grid.origin).component_div(&grid.spacing);
         let fits = (0..3).all(|a| at[a] >= 0.0 && at[a] < grid.dims[a] as f64);

@@ -241,7 +241,7 @@ pub fn shape(solid: &Solid, region: &Region, run: &Run) -> Result<Shape> {
         (None, Body::Voxels(v)) => Blocks::of(v, solid.memory_limit()).skin(region)?,
         (None, Body::Mesh(_)) => {
             solid.find_inside(run)?;
-            let skin = Blocks::of_grid(solid).skin(region)?;
+            let skin = Blocks::of_grid(solid)?.skin(region)?;
             if skin.faces.is_empty() {
                 return Err(Error::Empty(
                     "no cell of the grid is in the fragment: it is thinner than cells".into(),

@@ -32,7 +32,10 @@ pub fn shape_to_bytes(shape: &Shape) -> Result<Vec<u8>> {
 pub fn shape_from_bytes(bytes: &[u8]) -> Result<Shape> {
     let In { frame, report, body } = from_bytes(Kind::Shape, bytes)?;
     check_frame(&frame)?;
-    body.check().map_err(|e| Error::Format(format!("the bytes hold no body: {e}")))?;
+    body.check().map_err(|e| match e {
+        Error::OutOfMemory(_) => e,
+        _ => Error::Format(format!("the bytes hold no body: {e}")),
+    })?;
     Ok(Shape { body: Arc::new(body), frame, report })
 }
 

@@ -74,10 +74,12 @@ impl Solid {
 
     /// 1 for cells of which more than half is covered (Buchele et al. 2026, eq 5), else 0; x fastest.
     ///
-    /// Of a mesh that is not huge they are found when first asked for.
-    pub fn inside(&self) -> &[u8] {
-        // The mesh has shown that its columns fit into the memory limit.
-        self.inside.get_or_init(|| self.cells(&Run::serial()).unwrap_or_default())
+    /// Of a mesh that is not huge they are found when first asked for: `OutOfMemory` where there is no
+    /// room then, which leaves the solid as it was.
+    pub fn inside(&self) -> Result<&[u8]> {
+        self.find_inside(&Run::serial())?;
+        let cells = self.inside.get().map(Vec::as_slice);
+        cells.ok_or_else(|| Error::Internal("the cells inside were not kept".into()))
     }
 
     /// Has the cells inside found by the threads of a run, if they are not known.

@@ -65,7 +65,7 @@ impl Dexels {
         wanted: usize,
         pool: &Pool,
     ) -> Result<Self> {
-        Dexels::among(solid, (solid.grid(), solid.inside()), bounds, wanted, pool)
+        Dexels::among(solid, (solid.grid(), solid.inside()?), bounds, wanted, pool)
     }
 
     /// The same for a part of the body: its cells in a grid, and its box.

@@ -38,7 +38,7 @@ impl<'a> Ground<'a> {
         let grid = solid.grid();
         let (cell, step) = cell_and_step(&grid.spacing);
         let lattice = Lattice::new(grid.dims, step);
-        let target = lattice.pack(solid.inside())?;
+        let target = lattice.pack(solid.inside()?)?;
         Ok(Ground {
             solid,
             surface: solid.surface(run)?,

@@ -140,7 +140,7 @@ mod tests {
         let all = candidates(&ground, &run).unwrap();
         let grid = solid.grid();
         let cells: Vec<Vec3> = (0..grid.len())
-            .filter(|&i| solid.inside()[i] == 1)
+            .filter(|&i| solid.inside().unwrap()[i] == 1)
             .map(|i| {
                 let [nx, ny, _] = grid.dims;
                 grid.center(i % nx, i / nx % ny, i / (nx * ny))

@@ -84,7 +84,7 @@ fn nothing() -> Error {
 
 /// The cells inside that half-spaces leave, if only a corner, and their box.
 fn left(solid: &Solid, planes: &[Plane]) -> Result<(Vec<u8>, [Vec3; 2])> {
-    let (grid, all) = (solid.grid(), solid.inside());
+    let (grid, all) = (solid.grid(), solid.inside()?);
     let mut inside = filled("cells in the half-spaces", all.len(), 0u8)?;
     let reach: Vec<f64> =
         planes.iter().map(|p| 0.5 * p.normal.abs().dot(&grid.spacing) + p.offset).collect();

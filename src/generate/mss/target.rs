@@ -47,7 +47,7 @@ impl<'a> Target<'a> {
         let grid = solid.grid();
         let (cell, step) = cell_and_step(&grid.spacing);
         let mesh = matches!(solid.body(), Body::Mesh(_));
-        let mut target = Target::bare(solid.inside(), grid.dims, step, run)?;
+        let mut target = Target::bare(solid.inside()?, grid.dims, step, run)?;
         match solid.body() {
             // Neither open nor crossing itself: every triangle is a boundary of the solid.
             Body::Mesh(m) if m.clean && solid.unit_moments().relative_error == 0.0 => {

@@ -32,7 +32,7 @@ use crate::shape::{Body, Mesh};
 pub(super) fn signed_distance(solid: &Solid, run: &Run) -> Result<Vec<f32>> {
     match solid.body() {
         Body::Mesh(mesh) => of_mesh(solid, mesh, run),
-        Body::Voxels(_) => cells::signed_distance(solid.inside(), solid.grid(), run),
+        Body::Voxels(_) => cells::signed_distance(solid.inside()?, solid.grid(), run),
     }
 }
 

@@ -70,7 +70,7 @@ impl<'a> Probe<'a> {
         let size = (solid.unit_moments().volume / 0.2).cbrt();
         let (mut points, most) = match solid.body() {
             Body::Mesh(m) => (of_mesh(m)?, (CELL * cell).max(SIZE * size)),
-            Body::Voxels(_) => (of_cells(solid.grid(), solid.inside())?, VOXEL * cell),
+            Body::Voxels(_) => (of_cells(solid.grid(), solid.inside()?)?, VOXEL * cell),
         };
         // What lies in other parts of the body, or is cut off, is no surface.
         let at = |p: &Vec3| f64::from(field.one([0, 1, 2].map(|a| p[a] as f32))).abs();

@@ -17,6 +17,8 @@ pub struct Given {
     clump: *mut morula_clump,
     parent: *mut morula_parent,
     held: morula_held,
+    fragments: *mut morula_fragments,
+    body: *mut morula_body,
 }
 
 /// A call with progress and a deadline (0: none): its status, and what it made, in bytes.
@@ -61,6 +63,10 @@ fn sized<T>() -> T {
     value
 }
 
+mod after;
+mod images;
+mod many;
+
 const CORNERS: [f64; 24] = [
     0., 0., 0., 2., 0., 0., 0., 1., 0., 2., 1., 0., 0., 0., 1., 2., 0., 1., 0., 1., 1., 2., 1., 1.,
 ];
@@ -89,13 +95,25 @@ impl Given {
             let p = null();
             assert_eq!(morula_parent_held(parent, 1.0, 1.0, p, p, p, p, &mut held), 0);
         }
-        Given { threads: 1, shape, solid, clump, parent, held }
+        let (mut fragments, mut body) = (null_mut(), null_mut());
+        let mut cut = options!(morula_break_options, morula_break_options_init);
+        (cut.cells, cut.spheres) = (2, 3);
+        let mut masses = options!(morula_mass_options, morula_mass_options_init);
+        masses.infeasible = MORULA_INFEASIBLE_LEAST_ERROR;
+        unsafe {
+            let status = morula_parent_break(parent, null(), 0, &held, &cut, &mut fragments);
+            assert_eq!(status, 0);
+            assert_eq!(morula_body_from_clump(clump, &masses, &mut body), 0);
+        }
+        Given { threads: 1, shape, solid, clump, parent, held, fragments, body }
     }
 }
 
 impl Drop for Given {
     fn drop(&mut self) {
         unsafe {
+            morula_body_free(self.body);
+            morula_fragments_free(self.fragments);
             morula_parent_free(self.parent);
             morula_clump_free(self.clump);
             morula_solid_free(self.solid);
@@ -181,7 +199,12 @@ macro_rules! method {
     };
 }
 
-pub const ROADS: &[Call] = &[
+/// All of them.
+pub fn roads() -> impl Iterator<Item = &'static Call> {
+    [ROADS, many::ROADS, images::ROADS, after::ROADS].into_iter().flatten()
+}
+
+const ROADS: &[Call] = &[
     Call {
         name: "shape_from_mesh",
         run: |g, progress, user, _| {
