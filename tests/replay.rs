@@ -58,5 +58,43 @@ fn serial_begins_from_what_is_read() {
 
 #[test]
 fn calls() {
-    replay("calls", 4, bodies::calls);
+    replay("calls", 20, bodies::calls);
+}
+
+/// The same of files and calls: how much is made of each at least.
+#[test]
+fn what_fuzzing_begins_from_is_made() {
+    for (name, body, least) in [
+        ("meshes/obj", bodies::meshes as fn(&[u8]), 1),
+        ("meshes/off", bodies::meshes, 1),
+        ("meshes/ply_ascii", bodies::meshes, 1),
+        ("meshes/ply_binary", bodies::meshes, 1),
+        ("meshes/stl_ascii", bodies::meshes, 1),
+        ("meshes/stl_binary", bodies::meshes, 1),
+        ("meshes/told_by_content", bodies::meshes, 1),
+        ("voxels/npy_fortran", bodies::voxels, 1),
+        ("voxels/npy_grey", bodies::voxels, 1),
+        ("voxels/npy_label", bodies::voxels, 1),
+        ("voxels/npy_mask", bodies::voxels, 1),
+        ("voxels/raw", bodies::voxels, 1),
+        ("voxels/tiff", bodies::voxels, 1),
+        ("calls/breaks", bodies::calls, 6),
+        ("calls/cache", bodies::calls, 4),
+        ("calls/labels", bodies::calls, 5),
+        ("calls/many_shapes", bodies::calls, 7),
+        ("calls/mask", bodies::calls, 3),
+        ("calls/mesh", bodies::calls, 1),
+        ("calls/method_0", bodies::calls, 8),
+        ("calls/method_9", bodies::calls, 8),
+        ("calls/moved", bodies::calls, 4),
+        ("calls/pieces", bodies::calls, 7),
+        ("calls/prices", bodies::calls, 4),
+        ("calls/silhouettes", bodies::calls, 2),
+        ("calls/spheres", bodies::calls, 1),
+        ("calls/sweep", bodies::calls, 3),
+    ] {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/fuzz_regressions/");
+        let made = bodies::made(body, &std::fs::read(format!("{path}{name}")).unwrap());
+        assert!(made >= least, "{name}: {made} of {least}");
+    }
 }

@@ -36,6 +36,7 @@ macro_rules! put {
         if ok($call(&mut new)) {
             $free($slot);
             $slot = new;
+            MADE.set(MADE.get() + 1);
             $look(new);
         } else {
             assert!(new.is_null());
@@ -78,7 +79,7 @@ pub fn calls(data: &[u8]) {
 impl Host<'_> {
     unsafe fn step(&mut self) {
         unsafe {
-            match self.input.byte() % 14 {
+            match self.input.byte() % 23 {
                 0 => self.primitive(),
                 1 => self.mesh(),
                 2 => self.mask(),
@@ -123,7 +124,16 @@ impl Host<'_> {
                 10 => self.export(),
                 11 => self.time_step(),
                 12 => self.distances(),
-                _ => self.prices(),
+                13 => self.prices(),
+                14 => self.many_shapes(),
+                15 => self.labels(),
+                16 => self.silhouettes(),
+                17 => self.cache(),
+                18 => self.sweep(),
+                19 => self.choose(),
+                20 => self.pieces(),
+                21 => self.breaks(),
+                _ => self.moved(),
             }
         }
     }

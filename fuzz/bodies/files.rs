@@ -33,6 +33,7 @@ fn read(bytes: &[u8], import: &morula_import_options, file: &morula_file_options
             assert!(shape.is_null());
             return;
         }
+        MADE.set(MADE.get() + 1);
         look(shape);
         morula_shape_free(shape);
     }

@@ -4,11 +4,19 @@
 //! No bytes may make the library panic (INTERNAL), give a status without a sentence, or give a number
 //! that is none.
 
-#![allow(unsafe_code, dead_code, clippy::unwrap_used, clippy::redundant_closure_call, missing_docs)]
+#![allow(
+    unsafe_code,
+    dead_code,
+    unused_imports,
+    clippy::unwrap_used,
+    clippy::redundant_closure_call,
+    missing_docs
+)]
 
 mod calls;
 mod files;
 mod serial;
+mod series;
 mod solver;
 
 pub use calls::calls;
@@ -16,10 +24,22 @@ pub use files::{meshes, voxels};
 pub use serial::serial;
 
 use morula::ffi::*;
+use std::cell::Cell;
 use std::ffi::CStr;
 
 /// Most bytes of a call; a small machine runs several at once.
 const LIMIT: u64 = 64 << 20;
+
+thread_local! {
+    static MADE: Cell<u32> = const { Cell::new(0) };
+}
+
+/// How many things a body made of bytes.
+pub fn made(body: fn(&[u8]), data: &[u8]) -> u32 {
+    MADE.set(0);
+    body(data);
+    MADE.get()
+}
 
 /// Whether a call succeeded; the status and the sentence must be in order.
 #[track_caller]
