@@ -135,21 +135,7 @@ impl Default for GenerateOptions {
 /// Makes a clump.
 pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     check(options, run)?;
-    let mut clump = run.time(Stage::Generate, || match options.method {
-        Method::Mss => {
-            solid.find_inside(run)?;
-            mss::mss(solid, options, run)
-        }
-        Method::Best => best::fewest::make(solid, options, run),
-        Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
-        Method::Inscribed => inscribed::inscribed(solid, options, None, run),
-        Method::Cover => cover::cover(solid, options, run),
-        Method::Packed => packed::packed(solid, options, run),
-        Method::Euclidean => baselines::euclidean(solid, options, run),
-        Method::FerellecMcDowell => baselines::ferellec_mcdowell(solid, options, run),
-        Method::Favier => baselines::favier(solid, options, run),
-        Method::UniformGrid => baselines::uniform_grid(solid, options, run),
-    })?;
+    let mut clump = run.time(Stage::Generate, || made(solid.with_told_axes()?, options, run))?;
     // A cancelled call measures no more: the clump goes out without figures.
     if let Some(wanted) = &options.quality
         && clump.stopped != Stopped::Cancelled
@@ -163,6 +149,24 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
     clump.warnings = warn::warnings(solid, options, &clump);
     clump.counters = run.counters();
     Ok(clump)
+}
+
+fn made(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
+    match options.method {
+        Method::Mss => {
+            solid.find_inside(run)?;
+            mss::mss(solid, options, run)
+        }
+        Method::Best => best::fewest::make(solid, options, run),
+        Method::SurfaceFit => surface_fit::surface_fit(solid, options, run),
+        Method::Inscribed => inscribed::inscribed(solid, options, None, run),
+        Method::Cover => cover::cover(solid, options, run),
+        Method::Packed => packed::packed(solid, options, run),
+        Method::Euclidean => baselines::euclidean(solid, options, run),
+        Method::FerellecMcDowell => baselines::ferellec_mcdowell(solid, options, run),
+        Method::Favier => baselines::favier(solid, options, run),
+        Method::UniformGrid => baselines::uniform_grid(solid, options, run),
+    }
 }
 
 /// Makes a clump by [`Method::Inscribed`] of which no sphere leaves a further bound, such as the

@@ -52,6 +52,7 @@ impl<'a> Series<'a> {
         }
         Memory::check(levels, &options.best)?;
         let memory = Memory::new(levels, most);
+        let solid = solid.with_told_axes()?;
         Ok(Series { solid, options, levels, most, memory, last: None })
     }
 

@@ -1,4 +1,4 @@
-use super::{Inertia, Moments, Sphere, Vec3};
+use super::{Axes, Inertia, Moments, Sphere, Vec3};
 
 /// The frame in which all work is done: the caller's coordinates less the
 /// lower corner of the bounding box, divided by a power of two, so that the
@@ -11,6 +11,9 @@ pub struct UnitFrame {
     pub offset: Vec3,
     /// Caller's length of one unit; a power of two.
     pub scale: f64,
+    /// The unit frame's axes where they are not the caller's; a shape's are.
+    #[serde(skip)]
+    pub axes: Axes,
 }
 
 impl UnitFrame {
@@ -29,7 +32,7 @@ impl UnitFrame {
         // The power of two at or above the edge, from its bits: exact.
         let below = f64::from_bits(edge.to_bits() & 0x7ff0_0000_0000_0000);
         let scale = if below < edge { 2.0 * below } else { below };
-        Some(UnitFrame { offset: lo, scale })
+        Some(UnitFrame { offset: lo, scale, axes: Axes::default() })
     }
 
     /// How far the caller's numbers may round a coordinate, as a share of the unit: far from the
@@ -40,17 +43,34 @@ impl UnitFrame {
 
     /// Caller's point to unit frame.
     pub fn to_unit(&self, p: &Vec3) -> Vec3 {
-        (p - self.offset) / self.scale
+        self.axes.point(&((p - self.offset) / self.scale))
     }
 
     /// Unit-frame point to the caller's frame.
     pub fn to_input(&self, p: &Vec3) -> Vec3 {
-        p * self.scale + self.offset
+        self.axes.point_back(p) * self.scale + self.offset
     }
 
     /// Unit-frame sphere to the caller's frame.
     pub fn sphere_to_input(&self, s: &Sphere) -> Sphere {
         Sphere::new(self.to_input(&s.center), s.radius * self.scale)
+    }
+
+    /// A direction of the unit frame in the caller's.
+    pub fn direction_to_input(&self, v: &Vec3) -> Vec3 {
+        self.axes.direction_back(v)
+    }
+
+    /// The caller's half-space normal · p ≤ offset in the unit frame.
+    pub fn plane_to_unit(&self, normal: &Vec3, offset: f64) -> (Vec3, f64) {
+        let turned = self.axes.direction(normal);
+        let mut offset = (offset - normal.dot(&self.offset)) / self.scale;
+        for (a, flipped) in self.axes.flipped.into_iter().enumerate() {
+            if flipped {
+                offset += turned[a] * self.axes.sum[self.axes.from[a]];
+            }
+        }
+        (turned, offset)
     }
 
     /// Caller's sphere to the unit frame.
@@ -65,7 +85,7 @@ impl UnitFrame {
         Moments {
             volume: m.volume * s3,
             centroid: self.to_input(&m.centroid),
-            inertia: Inertia::from_matrix(&(m.inertia.matrix() * s5)),
+            inertia: Inertia::from_matrix(&(self.axes.inertia_back(&m.inertia).matrix() * s5)),
             relative_error: m.relative_error,
         }
     }

@@ -2,6 +2,7 @@
 //! directions.
 
 mod angle;
+mod axes;
 mod ears;
 mod frame;
 mod inertia;
@@ -10,6 +11,7 @@ mod sphere;
 
 pub(crate) use angle::half_solid_angle;
 pub use angle::solid_angle;
+pub use axes::Axes;
 pub(crate) use ears::{Ears, Next, turn};
 pub use frame::UnitFrame;
 pub use inertia::{Inertia, Moments};

@@ -165,6 +165,7 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
             moments,
             notes,
             memory_limit: options.memory_limit,
+            told: OnceLock::new(),
         })
     })
 }

@@ -10,6 +10,7 @@ pub mod grid;
 mod lids;
 pub mod moments;
 pub mod nearest;
+mod told;
 mod triangle;
 pub mod winding;
 
@@ -54,6 +55,8 @@ pub struct Solid {
     moments: Moments,
     notes: Vec<String>,
     memory_limit: u64,
+    /// Itself with the axes that the body tells, where they are others.
+    told: OnceLock<Option<Box<Solid>>>,
 }
 
 impl Solid {
@@ -109,7 +112,8 @@ impl Solid {
     pub(crate) fn bytes(&self) -> u64 {
         let cells = self.grid.len() as u64;
         let distance = self.distance.get().map_or(0, |d| 4 * d.len() as u64);
-        cells + distance + self.surface.get().map_or(0, |s| s.bytes())
+        let told = self.told.get().and_then(|t| t.as_deref()).map_or(0, Solid::bytes);
+        cells + distance + self.surface.get().map_or(0, |s| s.bytes()) + told
     }
 
     /// Volume, centroid, inertia at unit density, in the caller's frame.
@@ -152,10 +156,26 @@ impl Solid {
         &self.notes
     }
 
+    /// The solid with the axes that the body tells, in which methods work: a body whose axes are
+    /// exchanged or mirrored has the same clump then. The frame leads back to the caller's.
+    pub(crate) fn with_told_axes(&self) -> Result<&Solid> {
+        Ok(self.told()?.unwrap_or(self))
+    }
+
+    fn told(&self) -> Result<Option<&Solid>> {
+        if self.told.get().is_none() {
+            let _ = self.told.set(told::turned(self)?.map(Box::new));
+        }
+        Ok(self.told.get().and_then(|told| told.as_deref()))
+    }
+
     /// Signed distance at the cell centres, negative inside.
     pub fn distance(&self, run: &Run) -> Result<&[f32]> {
         if self.distance.get().is_none() {
-            let d = field::signed_distance(self, run)?;
+            let d = match self.told()? {
+                Some(told) => told::distance_back(self, told, run)?,
+                None => field::signed_distance(self, run)?,
+            };
             let _ = self.distance.set(d);
         }
         Ok(self.distance.get().map_or(&[], |d| d.as_slice()))

@@ -31,6 +31,8 @@ pub(super) struct Plan {
     pub cells: u32,
     /// Columns that meet the target.
     pub columns: usize,
+    /// Starts, of which the best is searched on.
+    pub starts: usize,
     /// Moves tried, and the most balls that one of them refines.
     pub moves: usize,
     pub around: usize,
@@ -45,6 +47,8 @@ impl Effort {
         let add = |base: usize, each: usize| base.saturating_add(each.saturating_mul(n));
         // Of many spheres a move costs more: each column holds more of them.
         let moves = |few: usize, many: usize| few.saturating_mul(many).div_ceil(n.max(many));
+        // Of many spheres a start costs more, and where each came to matters less.
+        let starts = |few: usize| (few * MANY / n.max(1)).clamp(1, few);
         match self {
             Effort::Draft => Plan {
                 points: wide(1500, 24),
@@ -53,6 +57,7 @@ impl Effort {
                 iterations: 50,
                 cells: (44.0 * (n as f64 / 50.0).cbrt()).clamp(44.0, 1e6) as u32,
                 columns: add(600, 10),
+                starts: 1,
                 moves: 0,
                 around: 0,
                 polish: [0, 0],
@@ -64,6 +69,7 @@ impl Effort {
                 iterations: 100,
                 cells: u32::MAX,
                 columns: add(1500, 15),
+                starts: starts(3),
                 moves: moves(160, MANY),
                 around: 8,
                 polish: [192, 50],
@@ -75,6 +81,7 @@ impl Effort {
                 iterations: 100,
                 cells: u32::MAX,
                 columns: add(4000, 60),
+                starts: starts(3),
                 moves: moves(4000, VERY_MANY),
                 around: 12,
                 polish: [384, 60],

@@ -199,7 +199,9 @@ impl<'a> Exact<'a> {
     ) -> Result<Exact<'a>> {
         let frame = *solid.frame();
         let protrusion = if options.max_protrusion > 0.0 {
-            Some((options.max_protrusion / frame.scale, solid.surface(run)?))
+            // A body with axes of its own has its corners rounded once more.
+            let rounding = if frame.axes.are_kept() { 0.0 } else { 8.0 * f64::EPSILON };
+            Some((options.max_protrusion / frame.scale - rounding, solid.surface(run)?))
         } else {
             None
         };
@@ -234,7 +236,8 @@ impl<'a> Exact<'a> {
             let way = || {
                 let way = if inside { p - nearest.point } else { nearest.point - p };
                 let norm = way.norm();
-                if norm > 0.0 { way / norm } else { -nearest.normal }
+                let way = if norm > 0.0 { way / norm } else { -nearest.normal };
+                self.frame.direction_to_input(&way)
             };
             lower(below(most, signed) * self.frame.scale, &way);
         }

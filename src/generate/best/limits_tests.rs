@@ -124,7 +124,11 @@ fn breaks_one((a, e): &([f64; 4], f64), x: &[f64; 4]) -> bool {
 
 #[test]
 fn half_spaces_of_any_length_and_place_are_the_same() {
-    let frame = UnitFrame { offset: Vec3::new(1e6, -3.0, 8.0), scale: 4.0 };
+    let frame = UnitFrame {
+        offset: Vec3::new(1e6, -3.0, 8.0),
+        scale: 4.0,
+        axes: crate::math::Axes::default(),
+    };
     for length in [1.0, 1e-300, 3e200] {
         let normal = Vec3::new(2.0, -1.0, 2.0) * length;
         let offset = normal.dot(&frame.offset) + 6.0 * length;

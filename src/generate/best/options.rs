@@ -41,7 +41,7 @@ impl HalfSpace {
     /// The same one in the unit frame.
     pub(crate) fn plane(&self, frame: &UnitFrame) -> Plane {
         let (normal, offset) = self.unit();
-        let offset = (offset - normal.dot(&frame.offset)) / frame.scale;
+        let (normal, offset) = frame.plane_to_unit(&normal, offset);
         Plane { normal, offset: offset.clamp(-FAR, FAR) }
     }
 }

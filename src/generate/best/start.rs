@@ -53,6 +53,9 @@ impl<'a> Start<'a> {
         let mut random = Random::new(*seed, 0);
         let shared = (*n * plan.directions >= SHARED).then_some(*pool);
         if choices.is_empty() {
+            if smooth.is_none() && plan.starts > 1 {
+                return self.best_of(shared, go);
+            }
             let seeds = (seeds::seeds(ground, plan, *n, &mut random)?, Orbits::default());
             return self.descend(plan, seeds, smooth, &mut random, shared, look, go);
         }
@@ -82,6 +85,29 @@ impl<'a> Start<'a> {
         let iterations = plan.iterations - plan.iterations / 2;
         self.settle(&mut state, &directions, iterations, &mut random, shared, look, go)?;
         Ok(state)
+    }
+
+    /// The best of a few starts, the first where time is up: of few balls one in ten or so leads
+    /// to a clump that no move mends.
+    fn best_of(&self, pool: Option<&Pool>, go: &mut dyn FnMut() -> bool) -> Result<State<'a>> {
+        let Start { ground, plan, n, seed, .. } = self;
+        let one = |k: u64, pool, go: &mut dyn FnMut() -> bool| {
+            let mut random = Random::new(*seed, k.wrapping_neg());
+            let seeds = (seeds::seeds(ground, plan, *n, &mut random)?, Orbits::default());
+            self.descend(plan, seeds, None, &mut random, pool, &mut Look::default(), go)
+        };
+        let mut best = one(0, pool, go)?;
+        if !go() {
+            return Ok(best);
+        }
+        let more = self.pool.map(plan.starts - 1, |k| one(1 + k as u64, None, &mut || true));
+        for other in more {
+            let other = other?;
+            if other.goal() < best.goal() {
+                best = other;
+            }
+        }
+        Ok(best)
     }
 
     /// A clump from a smaller one: `fixed` of its balls stay, further ones are added where most is

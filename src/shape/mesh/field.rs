@@ -159,7 +159,11 @@ mod tests {
             }
         }
         let some: Vec<u32> = (0..faces.len() as u32).collect();
-        let grain = Grain::of(&UnitFrame { offset: Vec3::zeros(), scale: 1.0 });
+        let grain = Grain::of(&UnitFrame {
+            offset: Vec3::zeros(),
+            scale: 1.0,
+            axes: crate::math::Axes::default(),
+        });
         let field = Field::new(&some, &faces, &points, grain).unwrap();
         for k in 0..200 {
             let g = |a: f64| (f64::from(k) * a).fract();

@@ -35,7 +35,7 @@ const FOUR: About = About {
 const CONDITION: About = About {
     measure: "condition number of the ten equations",
     bound: Bound::Told,
-    why: "how much of the digits the masses can lose; infinite where spheres lie in a line",
+    why: "how much of the digits the masses can lose; 1e14 stands for more, as where spheres lie in a line",
 };
 
 const UNION: About = About {

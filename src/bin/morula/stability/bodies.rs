@@ -28,6 +28,21 @@ pub fn inverted(mesh: &Arrays) -> Arrays {
     (mesh.0.clone(), mesh.1.iter().map(|f| [f[0], f[2], f[1]]).collect())
 }
 
+/// Each triangle cut at the middles of its edges, which every triangle has of its own.
+pub fn subdivided(mesh: &Arrays) -> Arrays {
+    let mut out: Arrays = (mesh.0.clone(), Vec::new());
+    for f in &mesh.1 {
+        let base = out.0.len() as u32;
+        for k in 0..3 {
+            let (a, b) = (mesh.0[f[k] as usize], mesh.0[f[(k + 1) % 3] as usize]);
+            out.0.push([0, 1, 2].map(|i| 0.5 * (a[i] + b[i])));
+        }
+        let [x, y, z] = [base, base + 1, base + 2];
+        out.1.extend([[f[0], x, z], [x, f[1], y], [z, y, f[2]], [x, y, z]]);
+    }
+    out
+}
+
 /// The second mesh added to the first.
 pub fn joined(mut a: Arrays, b: &Arrays) -> Arrays {
     let base = a.0.len() as u32;

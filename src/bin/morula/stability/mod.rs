@@ -10,6 +10,7 @@ mod convergence;
 mod invariance;
 #[cfg(feature = "dem")]
 mod motion;
+mod particles;
 mod references;
 mod shapes;
 #[cfg(feature = "dem")]

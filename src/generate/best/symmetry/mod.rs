@@ -12,7 +12,7 @@ pub(super) use orbits::{Orbit, Orbits, Sites};
 pub(super) use seeds::seeds;
 
 use super::options::{BestOptions, Symmetry};
-use crate::error::{Error, Result, figure};
+use crate::error::{Error, Result, collected, figure};
 use crate::generate::balls::Plane;
 use crate::generate::balls::field::Field;
 use crate::math::Vec3;
@@ -47,7 +47,9 @@ pub(super) fn choices(
             std::iter::once(group.clone()).chain(parts).collect()
         }
         Symmetry::Planes(normals) => {
-            let group = planes(normals)?;
+            let axes = &solid.frame().axes;
+            let turned = normals.iter().map(|n| axes.direction(n));
+            let group = planes(&collected("symmetry planes", turned)?)?;
             let broken = |m: &Matrix| broken(m, &centre, half_spaces);
             if let Some(i) = group.elements().iter().find_map(broken) {
                 return Err(Error::InvalidArgument(format!(

@@ -178,7 +178,8 @@ impl<'a> Orbits<'a> {
         let centre = frame.to_input(&sites.centre);
         let p = kind.projector * (s.center - sites.centre);
         let radius = s.radius * frame.scale;
-        let image = |m: &Matrix| Sphere::new(centre + m * p * frame.scale, radius);
+        let place = |m: &Matrix| centre + frame.direction_to_input(&(m * p)) * frame.scale;
+        let image = |m: &Matrix| Sphere::new(place(m), radius);
         kind.images.iter().map(image).collect()
     }
 
