@@ -17,6 +17,7 @@ mod warn;
 
 use crate::clump::{Clump, Stopped};
 use crate::error::{Error, Result, figure};
+use crate::math::Sphere;
 use crate::measure::{self, QualityOptions};
 use crate::run::{Run, Stage};
 use crate::solid::Solid;
@@ -136,6 +137,7 @@ impl Default for GenerateOptions {
 pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     check(options, run)?;
     let mut clump = run.time(Stage::Generate, || made(solid.with_told_axes()?, options, run))?;
+    keep_radii(&mut clump.spheres, options);
     // A cancelled call measures no more: the clump goes out without figures.
     if let Some(wanted) = &options.quality
         && clump.stopped != Stopped::Cancelled
@@ -149,6 +151,20 @@ pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<C
     clump.warnings = warn::warnings(solid, options, &clump);
     clump.counters = run.counters();
     Ok(clump)
+}
+
+/// Bounds of radii hold to the last digit in the caller's unit, which is not that of the methods.
+fn keep_radii(spheres: &mut [Sphere], options: &GenerateOptions) {
+    const LAST: f64 = 8.0 * f64::EPSILON;
+    let (least, most) = (options.min_radius, options.best.max_radius);
+    for s in spheres {
+        if s.radius < least && s.radius >= (1.0 - LAST) * least {
+            s.radius = least;
+        }
+        if most > 0.0 && s.radius > most && s.radius <= (1.0 + LAST) * most {
+            s.radius = most;
+        }
+    }
 }
 
 fn made(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {

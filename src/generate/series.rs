@@ -89,6 +89,7 @@ impl<'a> Series<'a> {
             best::fewest::fits(self.solid, &options)?;
             best::after(self.solid, &options, &mut self.memory, run)
         })?;
+        super::keep_radii(&mut clump.spheres, &options);
         if self.levels == Levels::Nested {
             if let Some(last) = &self.last {
                 clump.spheres = append(last, clump.spheres);

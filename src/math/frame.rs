@@ -9,9 +9,9 @@ use super::{Axes, Inertia, Moments, Sphere, Vec3};
 pub struct UnitFrame {
     /// Lower corner of the bounding box, in the caller's frame.
     pub offset: Vec3,
-    /// Caller's length of one unit; a power of two.
+    /// Caller's length of one unit; a power of two but within methods.
     pub scale: f64,
-    /// The unit frame's axes where they are not the caller's; a shape's are.
+    /// The unit frame's axes: the caller's but within methods.
     #[serde(skip)]
     pub axes: Axes,
 }

@@ -156,8 +156,9 @@ impl Solid {
         &self.notes
     }
 
-    /// The solid with the axes that the body tells, in which methods work: a body whose axes are
-    /// exchanged or mirrored has the same clump then. The frame leads back to the caller's.
+    /// The solid with the axes and the unit that the body tells, in which methods work: a body whose axes
+    /// are exchanged or mirrored, or of any other unit, has the same clump then. The frame leads back to
+    /// the caller's.
     pub(crate) fn with_told_axes(&self) -> Result<&Solid> {
         Ok(self.told()?.unwrap_or(self))
     }

@@ -1,5 +1,6 @@
-//! The axes that a body tells by itself: in the order of its extents about them, and with its centre
-//! of mass nearer to the lower side of its box. A body whose axes are exchanged or mirrored tells the same.
+//! The axes and the unit that a body tells by itself: axes in the order of its extents about them, with its
+//! centre of mass nearer to the lower side of its box, the longest edge of which is the unit. A body
+//! whose axes are exchanged or mirrored tells the same, and one in another unit but for the last digit.
 
 use super::{Grid, Solid, moments};
 use crate::error::{Result, collected, filled, reserve};
@@ -27,38 +28,40 @@ fn axes(m: &Moments, lo: &Vec3, hi: &Vec3) -> Axes {
     Axes { from, flipped: from.map(above), sum }
 }
 
-/// The solid with these axes; `None` where it has them.
+/// The solid with these axes and this unit; `None` where it has them.
 pub(super) fn turned(solid: &Solid) -> Result<Option<Solid>> {
     let bounds = match &*solid.body {
         Body::Mesh(mesh) => moments::bounds(mesh),
         Body::Voxels(v) => Some((Vec3::zeros(), v.spacing.component_mul(&numbers(v.dims)))),
     };
     let Some((lo, hi)) = bounds else { return Ok(None) };
+    let unit = (hi - lo).max();
     let axes = axes(&solid.moments, &lo, &hi);
-    if axes.are_kept() {
+    if axes.are_kept() && unit == 1.0 || !(unit.is_normal() && unit > 0.0) {
         return Ok(None);
     }
+    let axes = Axes { sum: axes.sum / unit, ..axes };
     let body = match &*solid.body {
-        Body::Mesh(mesh) => Body::Mesh(turned_mesh(mesh, &axes)?),
+        Body::Mesh(mesh) => Body::Mesh(turned_mesh(mesh, &axes, unit)?),
         Body::Voxels(v) => Body::Voxels(Voxels {
             dims: axes.ordered(v.dims),
-            spacing: axes.ordered(v.spacing.into()).into(),
+            spacing: axes.ordered((v.spacing / unit).into()).into(),
             cells: cells(&v.cells, v.dims, &axes)?,
         }),
     };
     let grid = solid.grid;
     let far = grid.origin + grid.spacing.component_mul(&numbers(grid.dims));
-    let [one, other] = [axes.point(&grid.origin), axes.point(&far)];
+    let [one, other] = [axes.point(&(grid.origin / unit)), axes.point(&(far / unit))];
     let inside = match (&*solid.body, solid.inside.get()) {
         (Body::Voxels(_), Some(inside)) => Some(cells(inside, grid.dims, &axes)?),
         _ => None,
     };
     Ok(Some(Solid {
         body: Arc::new(body),
-        frame: UnitFrame { axes, ..solid.frame },
+        frame: UnitFrame { axes, scale: solid.frame.scale * unit, ..solid.frame },
         grid: Grid {
             dims: axes.ordered(grid.dims),
-            spacing: axes.ordered(grid.spacing.into()).into(),
+            spacing: axes.ordered((grid.spacing / unit).into()).into(),
             origin: one.inf(&other),
         },
         padding: solid.padding,
@@ -66,8 +69,10 @@ pub(super) fn turned(solid: &Solid) -> Result<Option<Solid>> {
         distance: OnceLock::new(),
         surface: OnceLock::new(),
         moments: Moments {
-            centroid: axes.point(&solid.moments.centroid),
-            inertia: axes.inertia(&solid.moments.inertia),
+            volume: solid.moments.volume / unit.powi(3),
+            centroid: axes.point(&(solid.moments.centroid / unit)),
+            inertia: axes
+                .inertia(&Inertia::from_matrix(&(solid.moments.inertia.matrix() / unit.powi(5)))),
             ..solid.moments
         },
         notes: Vec::new(),
@@ -79,8 +84,9 @@ pub(super) fn turned(solid: &Solid) -> Result<Option<Solid>> {
 /// The distances of the turned solid at the cells of the other.
 pub(super) fn distance_back(solid: &Solid, told: &Solid, run: &Run) -> Result<Vec<f32>> {
     let from = told.distance(run)?;
+    let unit = (told.frame.scale / solid.frame.scale) as f32;
     let mut out = filled("the distances of cells", from.len(), 0f32)?;
-    each(solid.grid.dims, &told.frame.axes, |new, old| out[old] = from[new]);
+    each(solid.grid.dims, &told.frame.axes, |new, old| out[old] = from[new] * unit);
     Ok(out)
 }
 
@@ -88,11 +94,11 @@ fn numbers(dims: [usize; 3]) -> Vec3 {
     Vec3::from_fn(|a, _| dims[a] as f64)
 }
 
-fn turned_mesh(mesh: &Mesh, axes: &Axes) -> Result<Mesh> {
+fn turned_mesh(mesh: &Mesh, axes: &Axes, unit: f64) -> Result<Mesh> {
     let mut faces = reserve("faces", mesh.faces.len())?;
     let mirror = axes.mirror();
     faces.extend(mesh.faces.iter().map(|&[a, b, c]| if mirror { [a, c, b] } else { [a, b, c] }));
-    let vertices = collected("vertices", mesh.vertices.iter().map(|p| axes.point(p)))?;
+    let vertices = collected("vertices", mesh.vertices.iter().map(|p| axes.point(&(p / unit))))?;
     Ok(Mesh { vertices, faces, clean: mesh.clean })
 }
 

@@ -199,8 +199,8 @@ impl<'a> Exact<'a> {
     ) -> Result<Exact<'a>> {
         let frame = *solid.frame();
         let protrusion = if options.max_protrusion > 0.0 {
-            // A body with axes of its own has its corners rounded once more.
-            let rounding = if frame.axes.are_kept() { 0.0 } else { 8.0 * f64::EPSILON };
+            // Within methods the body has a unit of its own, and corners rounded once more.
+            let rounding = 8.0 * f64::EPSILON;
             Some((options.max_protrusion / frame.scale - rounding, solid.surface(run)?))
         } else {
             None

@@ -83,7 +83,7 @@ fn particle(m: &mut Matrix, path: &Path) {
     let faces: Vec<[u32; 3]> =
         shuffled(mesh.1.len(), 3).into_iter().map(|i| mesh.1[i as usize]).collect();
     for (what, about, changed) in [
-        ("times 7.7e-12", &PERCENT, moved(&mesh, |p| p.map(|x| x * 7.7e-12))),
+        ("times 7.7e-12", &ANOTHER, moved(&mesh, |p| p.map(|x| x * 7.7e-12))),
         ("axes exchanged", &PERCENT, moved(&mesh, |p| [p[2], p[0], p[1]])),
         ("mirrored", &PERCENT, inverted(&moved(&mesh, |p| [-p[0], p[1], p[2]]))),
         ("triangles in another order", &PERCENT, (mesh.0.clone(), faces)),
