@@ -92,6 +92,21 @@ if [ -n "${MORULA_DATA:-}" ]; then
     python_with_numpy || { install python3-numpy && python_with_numpy; } ||
         skip "made hard cases" "no python3 with numpy (MORULA_PYTHON names one)"
 fi
+# Before the Rust tests, some of which compile for themselves: without a compiler they would pass
+# having looked at nothing.
+have gfortran || install gfortran || true
+have gfortran || skip "Fortran cases, of the Rust tests and of CTest" "gfortran is not installed"
+have clang++ || install clang || true
+have clang++ || skip "C and C++ cases with clang" "clang++ is not installed"
+have_pkg_config() { have pkg-config || have pkgconf; }
+have_pkg_config || install pkg-config || true
+have_pkg_config || skip "pkg-config cases of CTest" "pkg-config is not installed"
+{ have mpicxx && have mpirun; } || install libopenmpi-dev openmpi-bin || true
+have mpicxx || skip "MPI cases of CTest" "mpicxx is not installed (package libopenmpi-dev)"
+python_with_numpy || { install python3-numpy && python_with_numpy; } ||
+    skip "Python case of CTest" "no python3 with numpy (MORULA_PYTHON names one)"
+have valgrind || install valgrind || true
+have valgrind || skip "valgrind cases of CTest" "valgrind is not installed"
 # DEM codes that read the files written for them.
 have lmp || install lammps || true
 have lmp || skip "what LAMMPS reads" "lmp is not installed (package lammps)"
@@ -109,19 +124,6 @@ have abidiff || install abigail-tools || true
 # The dev profile: optimised, with debug assertions.
 step "cargo test" cargo test --locked --no-fail-fast
 
-have gfortran || install gfortran || true
-have gfortran || skip "Fortran cases of CTest" "gfortran is not installed"
-have clang++ || install clang || true
-have clang++ || skip "C++ cases of CTest with clang" "clang++ is not installed"
-have_pkg_config() { have pkg-config || have pkgconf; }
-have_pkg_config || install pkg-config || true
-have_pkg_config || skip "pkg-config cases of CTest" "pkg-config is not installed"
-{ have mpicxx && have mpirun; } || install libopenmpi-dev openmpi-bin || true
-have mpicxx || skip "MPI cases of CTest" "mpicxx is not installed (package libopenmpi-dev)"
-python_with_numpy || { install python3-numpy && python_with_numpy; } ||
-    skip "Python case of CTest" "no python3 with numpy (MORULA_PYTHON names one)"
-have valgrind || install valgrind || true
-have valgrind || skip "valgrind cases of CTest" "valgrind is not installed"
 tree=build/test
 step "cmake configure" cmake -S . -B "$tree" -DCMAKE_BUILD_TYPE=Release \
     -DMORULA_CARGO_TARGET_DIR="$(pwd)/target" -DMORULA_VALGRIND=OFF
