@@ -5,7 +5,7 @@ find_program(valgrind valgrind)
 set(c_programs minimal layout structs serial)
 if(MORULA_VALGRIND)
   # Not host: valgrind has no floating-point traps and flags of its own.
-  list(APPEND c_programs api bad_arguments cancel threads many demands masses cost sweep fragments moving
+  list(APPEND c_programs api bad_arguments refused cancel threads many demands masses cost sweep fragments moving
     grown reentrant limits stress)
 endif()
 

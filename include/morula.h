@@ -5,7 +5,10 @@
  * Status. Every function that can fail returns an int32_t: MORULA_STATUS_OK (0)
  * or another MORULA_STATUS_*; morula_last_error_message() then holds one
  * sentence with the value and index at fault. What a function gives back is
- * written only on success.
+ * written only on success, but for morula_clumps_from_shapes(),
+ * morula_clumps_from_labels() and morula_parents_break() with statuses. Each
+ * function names what it may return; any may also return INTERNAL (a panic of the
+ * library, caught) and INVALID_ARGUMENT for a pointer that is not aligned to its type.
  *
  * Ownership. Handles (morula_shape, morula_solid, morula_clump, morula_body,
  * morula_files, morula_cost, morula_sweep, morula_parent, morula_cache, morula_fragments)
@@ -27,6 +30,10 @@
  * Reentrancy. A callback may call any function of the library, also with the const
  * handles of the call that it belongs to; it must not free those. The library keeps
  * nothing between calls but the last message of each thread and the sink of the log.
+ *
+ * Panics. The first call puts a hook before the one that prints the panics of Rust, for
+ * the whole process and for good: a panic that a call catches is not printed, all others
+ * are as before. Only Rust code that shares its runtime with the library meets it.
  *
  * Layouts. Points x, y, z; spheres x, y, z, r; inertia xx, yy, zz, xy, xz, yz
  * with the products as they stand in the tensor (xy = -integral of x y dm); a
@@ -1972,7 +1979,7 @@ int32_t morula_clump_from_shape(const struct morula_shape *shape,
 /// cancelled after there were spheres (ask morula_clump_stopped());
 /// NULL_POINTER; INVALID_ARGUMENT (an option); STRUCT_SIZE; CANCELLED (before
 /// there was a sphere); NO_SPHERES; ZERO_VOLUME (half-spaces that leave nothing of the body);
-/// UNSUPPORTED; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
+/// UNSUPPORTED; TOO_LARGE; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
 /// Ownership: the solid stays the caller's and may be freed at once; free
 /// *clump with morula_clump_free(). *clump is written only on success.
 /// Threads: any thread; the solid is only read. The same bytes come out for any
@@ -2106,7 +2113,7 @@ int32_t morula_clump_warning_count(const struct morula_clump *clump, size_t *cou
 ///
 /// Parameters: `codes`, `figures` and `bounds` have room for `capacity` numbers each; the codes are
 /// of MORULA_WARNING_*.
-/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written).
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written); OUT_OF_MEMORY.
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_clump_copy_warnings(const struct morula_clump *clump,
                                    size_t capacity,
@@ -2295,10 +2302,10 @@ int32_t morula_sweep_options_init(struct morula_sweep_options *options,
 /// whole sweep: the lists that are begun after it have a line each. `cost` may be NULL for the
 /// defaults; its `seconds` are not read. `what` says what is swept over.
 /// Returns: MORULA_STATUS_OK, also when some lists could not be made, or the callback cancelled
-/// after there was a line: morula_swept has the status of each list; where there is no list at
-/// all, the status of the first; NULL_POINTER; EMPTY (nothing to sweep over);
-/// INVALID_ARGUMENT (a resolution, method, effort or deadline that is none, an option);
-/// STRUCT_SIZE; TOO_LARGE; OUT_OF_MEMORY; INTERNAL.
+/// after there was a line: morula_swept has the status of each list; NULL_POINTER; EMPTY (nothing
+/// to sweep over); INVALID_ARGUMENT (a resolution, method, effort or deadline that is none, an
+/// option); STRUCT_SIZE; TOO_LARGE; OUT_OF_MEMORY; INTERNAL; where there is no list at all, the
+/// statuses of morula_solid_from_shape() and morula_cost_curve(), of the first list.
 /// Ownership: the shape stays the caller's and may be freed at once; free *sweep with
 /// morula_sweep_free(). *sweep is written only on success.
 /// Threads: any thread; the shape is only read. But for seconds the same bytes come out for any
@@ -2358,7 +2365,7 @@ int32_t morula_mass_options_init(struct morula_mass_options *options,
 /// morula_body_masses()); NULL_POINTER; INVALID_ARGUMENT (an option; bounds of masses that leave no
 /// choice; spheres far from the target); NOT_FINITE; STRUCT_SIZE; NOT_WANTED (the clump was made
 /// without MORULA_WANT_MOMENTS, and the target is the solid); NO_MASSES (no masses have the centre
-/// of the body); CANCELLED; OUT_OF_MEMORY; INTERNAL.
+/// of the body); TOO_LARGE; CANCELLED; OUT_OF_MEMORY; INTERNAL.
 /// Ownership: the clump stays the caller's and may be freed at once; free *body with
 /// morula_body_free(). *body is written only on success.
 /// Threads: any thread; the clump is only read. The same bytes come out for any number of
@@ -2622,7 +2629,7 @@ void morula_files_free(struct morula_files *files);
 /// y, z and radius each, or none: then fragments fill the solid, and nothing is known of time steps;
 /// `threads` is the number of threads of this call, 0: all cores.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (threads, a radius); NOT_FINITE (a
-/// sphere); MEMORY_LIMIT (of the solid's options); OUT_OF_MEMORY; INTERNAL.
+/// sphere); TOO_LARGE (the count); MEMORY_LIMIT (of the solid's options); OUT_OF_MEMORY; INTERNAL.
 /// Ownership: inputs stay the caller's and may be freed at once; free *parent with
 /// morula_parent_free(). *parent is written only on success.
 /// Threads: any thread; the solid is only read. The same bytes come out for any number of threads.
@@ -2669,7 +2676,8 @@ int32_t morula_held_init(struct morula_held *held,
 /// y, z of any length but 0 (NULL: the shape is not turned); `velocity` and `angular_velocity` hold
 /// three numbers of the world (NULL: 0). `held` is filled: set its struct_size first.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INVALID_ARGUMENT (density or scale not
-/// above 0, a quaternion of 0, a size beyond the numbers).
+/// above 0, a quaternion of 0, a size beyond the numbers); NOT_FINITE (the density, or a number of
+/// position, quaternion and velocities).
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_parent_held(const struct morula_parent *parent,
                            double density,
@@ -2732,7 +2740,7 @@ void morula_cache_free(struct morula_cache *cache);
 /// morula_parent_held(), the quaternion that of the fragment's body axes; NULL: as they were handed
 /// over. `held` is filled: set its struct_size first.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INDEX_OUT_OF_RANGE; INVALID_ARGUMENT (a
-/// quaternion of 0).
+/// quaternion of 0); NOT_FINITE (a number of position, quaternion and velocities).
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_fragments_held(const struct morula_fragments *fragments,
                               size_t index,
@@ -2965,7 +2973,7 @@ int32_t morula_fragments_shape(const struct morula_fragments *fragments,
 /// least, as far as they do so now; `frame`, `capacity` and `xyzr` as
 /// morula_fragments_copy_spheres(): others and gap are in that frame and its unit.
 /// Returns: as morula_fragments_copy_spheres(); INVALID_ARGUMENT also for a part, gap or radius out
-/// of its range; NOT_FINITE (a sphere of the others).
+/// of its range; NOT_FINITE (a sphere of the others); TOO_LARGE (other_count).
 /// Threads: may run at the same time as other const functions on this handle.
 int32_t morula_fragments_grow(const struct morula_fragments *fragments,
                               size_t index,
@@ -3007,7 +3015,7 @@ int32_t morula_shape_serialize(const struct morula_shape *shape,
 /// Makes the shape again, to the last bit: nothing is checked, welded or repaired anew.
 ///
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; FORMAT (bytes that are cut short, changed, of
-/// something else or of no shape); UNSUPPORTED (another version);
+/// something else or of no shape); UNSUPPORTED (another version); TOO_LARGE (the size);
 /// OUT_OF_MEMORY; INTERNAL.
 /// Ownership: the bytes are copied; free *shape with morula_shape_free(). *shape is written only
 /// on success.

@@ -116,7 +116,7 @@ pub unsafe extern "C" fn morula_mass_options_init(
 /// morula_body_masses()); NULL_POINTER; INVALID_ARGUMENT (an option; bounds of masses that leave no
 /// choice; spheres far from the target); NOT_FINITE; STRUCT_SIZE; NOT_WANTED (the clump was made
 /// without MORULA_WANT_MOMENTS, and the target is the solid); NO_MASSES (no masses have the centre
-/// of the body); CANCELLED; OUT_OF_MEMORY; INTERNAL.
+/// of the body); TOO_LARGE; CANCELLED; OUT_OF_MEMORY; INTERNAL.
 /// Ownership: the clump stays the caller's and may be freed at once; free *body with
 /// morula_body_free(). *body is written only on success.
 /// Threads: any thread; the clump is only read. The same bytes come out for any number of

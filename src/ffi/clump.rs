@@ -306,7 +306,7 @@ pub unsafe extern "C" fn morula_clump_from_shape(
 /// cancelled after there were spheres (ask morula_clump_stopped());
 /// NULL_POINTER; INVALID_ARGUMENT (an option); STRUCT_SIZE; CANCELLED (before
 /// there was a sphere); NO_SPHERES; ZERO_VOLUME (half-spaces that leave nothing of the body);
-/// UNSUPPORTED; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
+/// UNSUPPORTED; TOO_LARGE; MEMORY_LIMIT; OUT_OF_MEMORY; INTERNAL.
 /// Ownership: the solid stays the caller's and may be freed at once; free
 /// *clump with morula_clump_free(). *clump is written only on success.
 /// Threads: any thread; the solid is only read. The same bytes come out for any

@@ -43,7 +43,7 @@ const _: () = {
 /// morula_parent_held(), the quaternion that of the fragment's body axes; NULL: as they were handed
 /// over. `held` is filled: set its struct_size first.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INDEX_OUT_OF_RANGE; INVALID_ARGUMENT (a
-/// quaternion of 0).
+/// quaternion of 0); NOT_FINITE (a number of position, quaternion and velocities).
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_fragments_held(

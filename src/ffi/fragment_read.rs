@@ -362,7 +362,7 @@ pub unsafe extern "C" fn morula_fragments_shape(
 /// least, as far as they do so now; `frame`, `capacity` and `xyzr` as
 /// morula_fragments_copy_spheres(): others and gap are in that frame and its unit.
 /// Returns: as morula_fragments_copy_spheres(); INVALID_ARGUMENT also for a part, gap or radius out
-/// of its range; NOT_FINITE (a sphere of the others).
+/// of its range; NOT_FINITE (a sphere of the others); TOO_LARGE (other_count).
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_fragments_grow(

@@ -70,7 +70,7 @@ pub(super) unsafe fn checked_spheres(
 /// y, z and radius each, or none: then fragments fill the solid, and nothing is known of time steps;
 /// `threads` is the number of threads of this call, 0: all cores.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; INVALID_ARGUMENT (threads, a radius); NOT_FINITE (a
-/// sphere); MEMORY_LIMIT (of the solid's options); OUT_OF_MEMORY; INTERNAL.
+/// sphere); TOO_LARGE (the count); MEMORY_LIMIT (of the solid's options); OUT_OF_MEMORY; INTERNAL.
 /// Ownership: inputs stay the caller's and may be freed at once; free *parent with
 /// morula_parent_free(). *parent is written only on success.
 /// Threads: any thread; the solid is only read. The same bytes come out for any number of threads.
@@ -150,6 +150,15 @@ pub unsafe extern "C" fn morula_held_init(held: *mut morula_held, size: usize) -
     guard(|| unsafe { init(held, size) })
 }
 
+/// Three numbers of the caller's, which may be left out.
+unsafe fn finite(pointer: *const f64, default: Vec3, name: &str) -> Result<Vec3> {
+    let three = unsafe { array_or(pointer, [default.x, default.y, default.z], name)? };
+    match three.iter().position(|v| !v.is_finite()) {
+        Some(i) => Err(Error::NotFinite(format!("{name}[{i}] is {}", three[i]))),
+        None => Ok(three.into()),
+    }
+}
+
 /// The state of a body as a solver holds it.
 pub(super) unsafe fn state(
     held: &mut Held,
@@ -159,12 +168,11 @@ pub(super) unsafe fn state(
     velocity: *const f64,
     angular_velocity: *const f64,
 ) -> Result<()> {
-    let own = |v: Vec3| [v.x, v.y, v.z];
     unsafe {
-        held.position = array_or(position, own(held.position), "position")?.into();
-        held.velocity = array_or(velocity, own(held.velocity), "velocity")?.into();
-        let spin = own(held.angular_velocity);
-        held.angular_velocity = array_or(angular_velocity, spin, "angular_velocity")?.into();
+        held.position = finite(position, held.position, "position")?;
+        held.velocity = finite(velocity, held.velocity, "velocity")?;
+        let spin = held.angular_velocity;
+        held.angular_velocity = finite(angular_velocity, spin, "angular_velocity")?;
         if !quaternion.is_null() {
             held.turn_to(array_or(quaternion, [0.0; 4], "quaternion")?, axes)?;
         }
@@ -194,7 +202,8 @@ pub(super) fn held_struct(h: &Held) -> morula_held {
 /// y, z of any length but 0 (NULL: the shape is not turned); `velocity` and `angular_velocity` hold
 /// three numbers of the world (NULL: 0). `held` is filled: set its struct_size first.
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; STRUCT_SIZE; INVALID_ARGUMENT (density or scale not
-/// above 0, a quaternion of 0, a size beyond the numbers).
+/// above 0, a quaternion of 0, a size beyond the numbers); NOT_FINITE (the density, or a number of
+/// position, quaternion and velocities).
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_parent_held(

@@ -52,7 +52,7 @@ pub unsafe extern "C" fn morula_shape_serialize(
 /// Makes the shape again, to the last bit: nothing is checked, welded or repaired anew.
 ///
 /// Returns: MORULA_STATUS_OK; NULL_POINTER; FORMAT (bytes that are cut short, changed, of
-/// something else or of no shape); UNSUPPORTED (another version);
+/// something else or of no shape); UNSUPPORTED (another version); TOO_LARGE (the size);
 /// OUT_OF_MEMORY; INTERNAL.
 /// Ownership: the bytes are copied; free *shape with morula_shape_free(). *shape is written only
 /// on success.

@@ -106,10 +106,10 @@ fn number(resolution: Resolution) -> f64 {
 /// whole sweep: the lists that are begun after it have a line each. `cost` may be NULL for the
 /// defaults; its `seconds` are not read. `what` says what is swept over.
 /// Returns: MORULA_STATUS_OK, also when some lists could not be made, or the callback cancelled
-/// after there was a line: morula_swept has the status of each list; where there is no list at
-/// all, the status of the first; NULL_POINTER; EMPTY (nothing to sweep over);
-/// INVALID_ARGUMENT (a resolution, method, effort or deadline that is none, an option);
-/// STRUCT_SIZE; TOO_LARGE; OUT_OF_MEMORY; INTERNAL.
+/// after there was a line: morula_swept has the status of each list; NULL_POINTER; EMPTY (nothing
+/// to sweep over); INVALID_ARGUMENT (a resolution, method, effort or deadline that is none, an
+/// option); STRUCT_SIZE; TOO_LARGE; OUT_OF_MEMORY; INTERNAL; where there is no list at all, the
+/// statuses of morula_solid_from_shape() and morula_cost_curve(), of the first list.
 /// Ownership: the shape stays the caller's and may be freed at once; free *sweep with
 /// morula_sweep_free(). *sweep is written only on success.
 /// Threads: any thread; the shape is only read. But for seconds the same bytes come out for any

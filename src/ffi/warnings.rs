@@ -39,7 +39,7 @@ pub unsafe extern "C" fn morula_clump_warning_count(
 ///
 /// Parameters: `codes`, `figures` and `bounds` have room for `capacity` numbers each; the codes are
 /// of MORULA_WARNING_*.
-/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written).
+/// Returns: MORULA_STATUS_OK; NULL_POINTER; BUFFER_TOO_SMALL (nothing is written); OUT_OF_MEMORY.
 /// Threads: may run at the same time as other const functions on this handle.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn morula_clump_copy_warnings(
