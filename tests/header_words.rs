@@ -5,7 +5,7 @@
 mod common;
 
 use common::c_header::{self, Declaration};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Name → its comment as one line.
 fn comments() -> BTreeMap<String, String> {
@@ -30,17 +30,20 @@ fn comments() -> BTreeMap<String, String> {
     found
 }
 
+/// What a comment says under `word`, and all that stands after it.
+fn clause(comment: &str, word: &str) -> Option<String> {
+    let low = comment.to_lowercase();
+    low.match_indices(':').find_map(|(at, _)| {
+        let heads = low[..at].rsplit(". ").next().unwrap();
+        heads.split(", ").any(|h| h.trim() == word).then(|| comment[at + 1..].trim().to_owned())
+    })
+}
+
 /// What a comment says under `word`, followed to the function that it names with "as".
 fn said(comments: &BTreeMap<String, String>, function: &str, word: &str) -> Option<String> {
     let mut function = function.to_owned();
     for _ in 0..4 {
-        let comment = &comments[&function];
-        let low = comment.to_lowercase();
-        let clause = low.match_indices(':').find_map(|(at, _)| {
-            let heads = &low[..at];
-            let heads = heads.rsplit(". ").next().unwrap();
-            heads.split(", ").any(|h| h.trim() == word).then(|| comment[at + 1..].trim().to_owned())
-        })?;
+        let clause = clause(&comments[&function], word)?;
         let next = clause.strip_prefix("as morula_").and_then(|rest| rest.split_once("()"));
         match next {
             Some((name, _)) if comments.contains_key(&format!("morula_{name}")) => {
@@ -145,4 +148,103 @@ fn every_status_that_a_function_names_exists() {
         }
     }
     assert!(named > 300, "only {named} statuses named");
+}
+
+/// The statuses that a function names, and those of the functions that it refers to.
+fn statuses(comments: &BTreeMap<String, String>, function: &str, found: &mut BTreeSet<String>) {
+    let returns = clause(&comments[function], "returns").unwrap_or_default();
+    let returns = returns.split("Ownership:").next().unwrap().split("Threads:").next().unwrap();
+    // What stands in parentheses explains one.
+    let mut depth = 0;
+    let outside: String = returns
+        .replace("()", "")
+        .chars()
+        .filter(|&c| {
+            depth += i32::from(c == '(');
+            let keep = depth == 0;
+            depth -= i32::from(c == ')');
+            keep
+        })
+        .collect();
+    for word in outside.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')) {
+        if word != function && comments.contains_key(word) {
+            statuses(comments, word, found);
+        } else if !word.is_empty() && !word.contains(|c: char| c.is_ascii_lowercase()) {
+            found.insert(word.trim_start_matches("MORULA_STATUS_").to_owned());
+        }
+    }
+}
+
+/// The arguments of each call of `name` in a program in C.
+fn calls<'a>(code: &'a str, name: &str) -> Vec<Vec<&'a str>> {
+    let mut found = Vec::new();
+    for (at, _) in code.match_indices(name) {
+        let before = code[..at].chars().next_back();
+        if before.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_') {
+            continue;
+        }
+        let (mut arguments, mut depth, mut from) = (Vec::new(), 0, at + name.len() + 1);
+        for (i, c) in code[at + name.len()..].char_indices() {
+            let i = at + name.len() + i;
+            depth += i32::from(c == '(') - i32::from(c == ')');
+            if depth == 0 || (depth == 1 && c == ',') {
+                arguments.push(code[from..i].trim());
+                from = i + 1;
+            }
+            if depth == 0 {
+                break;
+            }
+        }
+        found.push(arguments);
+    }
+    found
+}
+
+/// Each status that a program in c_examples waits for is one that the header names for the function.
+#[test]
+fn every_status_that_a_program_waits_for_is_one_that_its_function_names() {
+    let comments = comments();
+    let mut named = BTreeMap::new();
+    let (mut checked, mut missing) = (0, Vec::new());
+    for folder in ["c", "fragmentation", "lammps"] {
+        let folder = format!("{}/c_examples/{folder}", env!("CARGO_MANIFEST_DIR"));
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|e| e != "c") {
+                continue;
+            }
+            let code = std::fs::read_to_string(&path).unwrap();
+            for arguments in calls(&code, "STATUS") {
+                let [call, expected] = arguments[..] else { panic!("{arguments:?}") };
+                let function = call.split('(').next().unwrap().trim();
+                let waits = expected.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+                for status in waits.filter_map(|w| w.strip_prefix("MORULA_STATUS_")) {
+                    if !comments.contains_key(function) {
+                        continue;
+                    }
+                    let all = named.entry(function.to_owned()).or_insert_with(|| {
+                        let mut all = BTreeSet::new();
+                        statuses(&comments, function, &mut all);
+                        all
+                    });
+                    checked += 1;
+                    if !all.contains(status) {
+                        missing.push(format!("{}: {call}: {status}", path.display()));
+                    }
+                }
+            }
+        }
+    }
+    assert!(missing.is_empty(), "not in the header:\n{}", missing.join("\n"));
+    assert!(checked > 200, "only {checked} statuses waited for");
+}
+
+/// What any function may return stands once, in the header's first comment.
+#[test]
+fn the_head_names_what_any_function_may_return() {
+    let header = include_str!("../include/morula.h");
+    let head = header.split("*/").next().unwrap();
+    for word in ["INTERNAL", "INVALID_ARGUMENT for a pointer", "hook"] {
+        assert!(head.contains(word), "the head does not say {word}");
+    }
 }
