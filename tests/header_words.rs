@@ -248,3 +248,30 @@ fn the_head_names_what_any_function_may_return() {
         assert!(head.contains(word), "the head does not say {word}");
     }
 }
+
+/// What `stress` has threads call at the same time on one handle of each kind: all that takes a const
+/// handle but these.
+#[test]
+fn every_const_call_is_raced_by_threads() {
+    const NOT: [&str; 3] = ["morula_body_write", "morula_clump_write", "morula_cache_clear"];
+    let header = c_header::read();
+    let code =
+        concat!(include_str!("../c_examples/c/stress.h"), include_str!("../c_examples/c/stress.c"));
+    let (mut raced, mut kinds) = (0, BTreeSet::new());
+    for (name, (_, parameters)) in &header.functions {
+        let given = parameters.iter().filter(|p| is_handle(p) && p.of.starts_with("const "));
+        let given: Vec<&str> = given.map(|p| p.of.as_str()).collect();
+        if given.is_empty() {
+            continue;
+        }
+        let called = code.contains(&format!("{name}("));
+        assert_eq!(called, !NOT.contains(&name.as_str()), "{name}");
+        raced += usize::from(called);
+        kinds.extend(given.iter().map(|of| of.replace("const", "").replace(['*', ' '], "")));
+    }
+    let page = include_str!("../docs/borders.md");
+    let (kinds, all) = (kinds.len(), raced + NOT.len());
+    let said =
+        format!("one handle of each of the {kinds} kinds, with {raced} of the {all} const calls");
+    assert!(page.contains(&said), "docs/borders.md does not say: {said}");
+}

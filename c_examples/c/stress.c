@@ -1,152 +1,134 @@
-/* Many threads at once: one handle of each kind that all of them read, and handles of their own. Each
- * thread's checksum of all results is that of one thread alone. */
-#include "check.h"
+/* Many threads at once: one handle of each kind that all of them read, none of which was read before, so
+ * that they race for what a handle makes at its first use; and handles of their own. Each thread's
+ * checksum of all results is that of one thread alone, with handles made alike. */
+#include "stress.h"
 
 #include <pthread.h>
-#include <stdlib.h>
 
-enum { THREADS = 8, ROUNDS = 3, SPHERES = 12 };
+enum { THREADS = 8, ROUNDS = 3 };
 
-struct handles {
-  morula_shape *shape;
-  morula_solid *solid;
-  morula_clump *clump;
-  morula_body *body;
-  morula_parent *parent;
-  morula_cache *cache;
-};
-
-static uint64_t sum(uint64_t seed, const void *bytes, size_t size) {
-  const unsigned char *b = bytes;
-  for (size_t i = 0; i < size; i++) seed = (seed ^ b[i]) * 1099511628211u;
-  return seed;
-}
-
-static int make(uint64_t seed, int32_t threads, struct handles *h) {
-  morula_solid_options grid;
-  morula_clump_options options;
-  memset(h, 0, sizeof *h);
-  morula_solid_options_init(&grid, sizeof grid);
-  grid.cells = 20;
-  morula_clump_options_init(&options, sizeof options);
-  options.spheres = SPHERES;
-  options.effort = MORULA_EFFORT_DRAFT;
-  options.threads = threads;
-  options.wants = MORULA_WANT_OVERLAP | MORULA_WANT_MOMENTS;
-  return morula_shape_from_primitive("stone", NULL, NULL, 0, 16, seed, NULL, &h->shape) ||
-         morula_solid_from_shape(h->shape, &grid, &h->solid) ||
-         morula_clump_from_solid(h->solid, &options, &h->clump) ||
-         morula_body_from_clump(h->clump, NULL, &h->body) ||
-         morula_parent_from_clump(h->solid, h->clump, threads, &h->parent) ||
-         morula_cache_new(1 << 20, &h->cache);
-}
-
-static void unmake(struct handles *h) {
-  morula_cache_free(h->cache);
-  morula_parent_free(h->parent);
-  morula_body_free(h->body);
-  morula_clump_free(h->clump);
-  morula_solid_free(h->solid);
-  morula_shape_free(h->shape);
-}
-
-/* The const calls on each kind of handle, and what they give, in one number; 0: one failed. */
-static uint64_t read_all(const struct handles *h) {
-  double xyzr[SPHERES][4], masses[SPHERES], points[3][3] = {{0, 0, 0}, {0.3, 0.2, 0.1}, {1, 1, 1}};
-  double distances[3];
-  uint8_t *bytes = NULL;
-  size_t size = 0, count = 0;
-  morula_moments m;
-  morula_overlap o;
-  morula_timestep t;
-  morula_held held;
-  morula_contact_options contact;
-  morula_break_options cut;
-  morula_solid_options grid;
-  morula_fragments *fragments = NULL;
-  morula_files *files = NULL;
-  morula_parent *parent = NULL;
-  morula_clump *clump = NULL;
-  morula_clump_options options;
-  uint64_t all = 14695981039346656037u;
-  memset(&m, 0, sizeof m);
-  memset(&o, 0, sizeof o);
-  memset(&t, 0, sizeof t);
-  m.struct_size = sizeof m;
-  o.struct_size = sizeof o;
-  t.struct_size = sizeof t;
-  held.struct_size = sizeof held;
-  morula_contact_options_init(&contact, sizeof contact);
-  contact.stiffness = 100;
-  morula_break_options_init(&cut, sizeof cut);
-  cut.cells = 2;
-  cut.spheres = 4;
-  morula_solid_options_init(&grid, sizeof grid);
-  grid.cells = 12;
-  morula_clump_options_init(&options, sizeof options);
-  options.spheres = 5;
-  options.effort = MORULA_EFFORT_DRAFT;
-  if (morula_shape_moments(h->shape, 2, &m)) return 0;
-  all = sum(all, &m, sizeof m);
-  if (morula_shape_serialize(h->shape, 0, NULL, &size)) return 0;
-  bytes = malloc(size);
-  if (morula_shape_serialize(h->shape, size, bytes, &size)) return 0;
-  all = sum(all, bytes, size);
-  free(bytes);
-  if (morula_solid_distance(h->solid, 3, points[0], distances)) return 0;
-  all = sum(all, distances, sizeof distances);
-  if (morula_clump_copy_spheres(h->clump, SPHERES, xyzr[0])) return 0;
-  all = sum(all, xyzr, sizeof xyzr);
-  if (morula_clump_overlap(h->clump, &o)) return 0;
-  all = sum(all, &o, sizeof o);
-  if (morula_clump_from_solid(h->solid, &options, &clump)) return 0;
-  if (morula_clump_copy_spheres(clump, SPHERES, xyzr[0])) return 0;
-  all = sum(all, xyzr, 5 * sizeof xyzr[0]);
-  morula_clump_free(clump);
-  if (morula_body_copy_masses(h->body, SPHERES, masses)) return 0;
-  all = sum(all, masses, sizeof masses);
-  if (morula_body_timestep(h->body, &contact, &t)) return 0;
-  all = sum(all, &t, sizeof t);
-  if (morula_body_export(h->body, MORULA_EXPORT_LAMMPS, NULL, &files)) return 0;
-  if (morula_files_size(files, 0, &size)) return 0;
-  bytes = malloc(size);
-  if (morula_files_copy_bytes(files, 0, size, bytes)) return 0;
-  all = sum(all, bytes, size);
-  free(bytes);
-  morula_files_free(files);
-  if (morula_parent_held(h->parent, 1, 1, NULL, NULL, NULL, NULL, &held)) return 0;
-  if (morula_parent_break(h->parent, NULL, 0, &held, &cut, &fragments)) return 0;
-  if (morula_fragments_count(fragments, &count)) return 0;
-  for (size_t i = 0; i < count; i++) {
-    morula_fragment f;
-    memset(&f, 0, sizeof f);
-    f.struct_size = sizeof f;
-    if (morula_fragments_get(fragments, i, &f)) return 0;
-    all = sum(all, &f, sizeof f);
+static int of_break(const morula_fragments *all, struct reader *r) {
+  size_t count = 0, dust = 0, notes = 0, size = 0;
+  FILLED(morula_break_totals, totals);
+  TRY(morula_fragments_totals(all, &totals));
+  ADD(totals);
+  TRY(morula_fragments_count(all, &count));
+  TRY(morula_fragments_dust_count(all, &dust));
+  for (size_t i = 0; i < count + dust; i++) {
+    FILLED(morula_fragment, f);
+    if (i < count) TRY(morula_fragments_get(all, i, &f));
+    else TRY(morula_fragments_dust(all, i - count, &f));
+    ADD(f);
   }
-  morula_fragments_free(fragments);
-  /* A cache locks itself: it, too, is shared by threads. */
-  if (morula_cache_parent(h->cache, h->shape, &grid, xyzr[0], 5, &parent)) return 0;
-  if (morula_parent_held(parent, 1, 1, NULL, NULL, NULL, NULL, &held)) return 0;
-  all = sum(all, &held, sizeof held);
+  TRY(morula_fragments_note_count(all, &notes));
+  for (size_t i = 0; i < notes; i++) {
+    TRY(morula_fragments_copy_note(all, i, sizeof r->text, r->text, &size));
+    add(r, r->text, size);
+  }
+  return 0;
+}
+
+/* The radii that spheres grow to are made when they are first asked for. */
+static int of_fragments(const struct handles *h, const struct asked *o, struct reader *r) {
+  size_t count = 0, size = 0;
+  morula_fragments *again = NULL;
+  morula_shape *shape = NULL;
+  FILLED(morula_held, held);
+  TRY(morula_fragments_count(h->fragments, &count));
+  for (size_t i = 0; i < count; i++) {
+    FILLED(morula_fragment, f);
+    TRY(morula_fragments_grow(h->fragments, i, 0.5, NULL, 0, 0, MORULA_FRAME_WORLD, 2 * MOST, r->numbers));
+    TRY(morula_fragments_get(h->fragments, i, &f));
+    const size_t n = (size_t)f.sphere_count;
+    add(r, r->numbers, 4 * n * sizeof(double));
+    TRY(morula_fragments_copy_spheres(h->fragments, i, MORULA_FRAME_BODY, 2 * MOST, r->numbers));
+    add(r, r->numbers, 4 * n * sizeof(double));
+    const int32_t weighed = morula_fragments_copy_masses(h->fragments, i, MOST, r->numbers);
+    if (weighed != MORULA_STATUS_NO_MASSES) TRY(weighed);
+    if (!weighed) add(r, r->numbers, n * sizeof(double));
+    TRY(morula_fragments_copy_map(h->fragments, i, r->indices, MOST, r->indices + MOST, r->numbers));
+    add(r, r->numbers, (size_t)f.map_count * sizeof(double));
+    TRY(morula_fragments_copy_half_spaces(h->fragments, i, MOST, r->numbers));
+    add(r, r->numbers, 4 * (size_t)f.half_space_count * sizeof(double));
+    TRY(morula_fragments_shape(h->fragments, i, &shape));
+    TRY(morula_shape_serialize(shape, BYTES, r->bytes, &size));
+    add(r, r->bytes, size);
+    morula_shape_free(shape);
+  }
+  TRY(morula_fragments_held(h->fragments, 0, NULL, NULL, NULL, NULL, &held));
+  ADD(held);
+  TRY(morula_parent_break(h->parent, h->fragments, 0, &held, &o->cut, &again));
+  TRY(of_break(again, r));
+  morula_fragments_free(again);
+  TRY(morula_fragments_serialize(h->fragments, 0, BYTES, r->bytes, &size));
+  add(r, r->bytes, size);
+  TRY(morula_fragments_deserialize(h->parent, r->bytes, size, &held, &again));
+  TRY(of_break(again, r));
+  morula_fragments_free(again);
+  return of_break(h->fragments, r);
+}
+
+/* A cache locks itself: it, too, is shared by threads. */
+static int of_parents(const struct handles *h, const struct asked *o, struct reader *r) {
+  uint64_t bytes = 0;
+  morula_fragments *all[1] = {NULL};
+  const morula_parent *parents[1] = {h->parent};
+  morula_parent *parent = NULL;
+  FILLED(morula_held, held);
+  FILLED(morula_cache_counts, counts);
+  TRY(morula_parent_held(h->parent, 1, 1, NULL, NULL, NULL, NULL, &held));
+  ADD(held);
+  TRY(morula_parent_break(h->parent, NULL, 0, &held, &o->cut, all));
+  TRY(of_break(all[0], r));
+  morula_fragments_free(all[0]);
+  TRY(morula_parents_break(parents, NULL, NULL, &held, &o->cut, 1, all, NULL));
+  TRY(of_break(all[0], r));
+  morula_fragments_free(all[0]);
+  TRY(morula_parent_bytes(h->parent, &bytes));
+  TRY(morula_clump_copy_spheres(h->clump, 2 * MOST, r->numbers));
+  TRY(morula_cache_parent(h->cache, h->shape, &o->grid, r->numbers, SPHERES, &parent));
+  TRY(morula_parent_held(parent, 1, 1, NULL, NULL, NULL, NULL, &held));
+  ADD(held);
   morula_parent_free(parent);
-  return all;
+  return morula_cache_counters(h->cache, &counts);
+}
+
+/* All that the handles give, in one number; 0: a call failed. */
+static uint64_t read_all(const struct handles *h) {
+  struct reader r;
+  struct asked o;
+  r.all = 14695981039346656037u;
+  int line = ask(5, 1, &o);
+  if (!line) line = of_solid(h, &o, &r);
+  if (!line) line = of_fragments(h, &o, &r);
+  if (!line) line = of_moments(h, &o, &r);
+  if (!line) line = of_shape(h, &o, &r);
+  if (!line) line = of_body(h, &o, &r);
+  if (!line) line = of_sweep(h, &r);
+  if (!line) line = of_parents(h, &o, &r);
+  if (!line) return r.all;
+  fprintf(stderr, "line %d: %s\n", line, morula_last_error_message());
+  return 0;
 }
 
 struct job {
   const struct handles *shared;
+  pthread_barrier_t *start;
   uint64_t seed, of_shared, of_own;
 };
 
 static uint64_t own(uint64_t seed, int32_t threads) {
   struct handles h;
-  const uint64_t all = make(seed, threads, &h) ? 0 : read_all(&h);
+  const int line = make(seed, threads, &h);
+  if (line) fprintf(stderr, "line %d: %s\n", line, morula_last_error_message());
+  const uint64_t all = line ? 0 : read_all(&h);
   unmake(&h);
   return all;
 }
 
 static void *work(void *user) {
   struct job *job = user;
+  pthread_barrier_wait(job->start);
   job->of_shared = read_all(job->shared);
   for (int i = 1; i < ROUNDS; i++)
     if (read_all(job->shared) != job->of_shared) job->of_shared = 0;
@@ -157,23 +139,30 @@ static void *work(void *user) {
 int main(void) {
   struct handles shared;
   pthread_t threads[THREADS];
+  pthread_barrier_t start;
   struct job jobs[THREADS];
   CHECK(!make(100, 1, &shared));
-  const uint64_t alone = read_all(&shared);
+  const uint64_t alone = own(100, 1);
   CHECK(alone != 0);
+  CHECK(pthread_barrier_init(&start, NULL, THREADS) == 0);
   for (int i = 0; i < THREADS; i++) {
     jobs[i].shared = &shared;
+    jobs[i].start = &start;
     jobs[i].seed = (uint64_t)(i / 2); /* two threads make each stone */
-    CHECK(pthread_create(&threads[i], NULL, work, &jobs[i]) == 0);
+    const int failed = pthread_create(&threads[i], NULL, work, &jobs[i]);
+    CHECK(!failed);
+    if (failed) return checks_done(); /* the others would wait for it */
   }
-  for (int i = 0; i < THREADS; i++) pthread_join(threads[i], NULL);
+  for (int i = 0; i < THREADS; i++) CHECK(pthread_join(threads[i], NULL) == 0);
   for (int i = 0; i < THREADS; i++) {
     CHECK(jobs[i].of_shared == alone);
-    CHECK(jobs[i].of_own != 0 && jobs[i].of_own == own(jobs[i].seed, 1));
+    CHECK(jobs[i].of_own != 0 && (i % 2 == 0 || jobs[i].of_own == jobs[i - 1].of_own));
+    if (i % 2 == 0) CHECK(jobs[i].of_own == own(jobs[i].seed, 1));
     printf("thread %d: shared %016llx, own %016llx\n", i, (unsigned long long)jobs[i].of_shared,
            (unsigned long long)jobs[i].of_own);
   }
   CHECK(read_all(&shared) == alone);
+  CHECK(pthread_barrier_destroy(&start) == 0);
   unmake(&shared);
   return checks_done();
 }
