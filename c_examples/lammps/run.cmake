@@ -13,6 +13,21 @@ function(run)
     message(FATAL_ERROR "${ARGN}: ${failed}")
   endif()
 endfunction()
-run("${PROGRAM}" make "${SOURCE}/elbow.obj" elbow.mol body.txt)
+run("${PROGRAM}" make "${SOURCE}/elbow.obj" elbow.mol body.txt 24)
 run("${MPIEXEC}" -np 2 "${LAMMPS}" -in "${SOURCE}/in.elbows" -log none)
-run("${PROGRAM}" check body.txt bodies.txt totals.txt)
+run("${PROGRAM}" check body.txt bodies.txt atoms.txt totals.txt)
+
+# The same without what the template's header says: LAMMPS adds mass, centre and inertia up over the
+# masses, places and radii of the spheres. 24 spheres have them but for part of the inertia, 50 have all.
+foreach(spheres IN ITEMS 24 50)
+  run("${PROGRAM}" make "${SOURCE}/elbow.obj" elbow_${spheres}.mol body_${spheres}.txt ${spheres})
+  file(READ "${FOLDER}/elbow_${spheres}.mol" bare)
+  string(REGEX REPLACE "[^\n]* mass\n[^\n]* com\n[^\n]* inertia\n" "" bare "${bare}")
+  if(bare MATCHES " (mass|com|inertia)\n")
+    message(FATAL_ERROR "elbow_${spheres}.mol without its header is\n${bare}")
+  endif()
+  file(WRITE "${FOLDER}/bare.mol" "${bare}")
+  run("${LAMMPS}" -in "${SOURCE}/in.elbows" -log none -var template bare.mol -var bodies bodies.txt
+    -var atoms atoms.txt -var totals totals.txt)
+  run("${PROGRAM}" check body_${spheres}.txt bodies.txt atoms.txt totals.txt added)
+endforeach()
