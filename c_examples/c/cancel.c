@@ -16,19 +16,23 @@ static int32_t progress(double fraction, void *user) {
 int main(void) {
   morula_shape *shape = l_shape();
   int cancelled = 0, partial = 0, whole = 0;
-  for (int stop_at = 1; !whole && stop_at < 10000; stop_at += 1 + stop_at / 4) {
+  morula_solid_options grid; /* coarse: there are some 200 calls to stop at */
+  OK(morula_solid_options_init(&grid, sizeof grid));
+  grid.cells = 24;
+  for (int stop_at = 1; !whole && stop_at < 10000; stop_at++) {
     struct count count = {0, stop_at, 0};
     morula_clump_options options;
     morula_clump *clump = NULL;
     int32_t status, stopped = -1;
     size_t n = 0;
     OK(morula_clump_options_init(&options, sizeof options));
-    options.spheres = 30;
+    options.spheres = 16;
+    options.quality_columns = 48;
     options.threads = 2;
     options.wants = MORULA_WANT_OVERLAP | MORULA_WANT_SURFACE;
     options.progress = progress;
     options.user = &count;
-    status = morula_clump_from_shape(shape, NULL, &options, &clump);
+    status = morula_clump_from_shape(shape, &grid, &options, &clump);
     if (status == MORULA_STATUS_CANCELLED) {
       CHECK(clump == NULL && morula_last_error_message()[0] != '\0');
       CHECK(count.calls >= stop_at && !partial);

@@ -42,8 +42,9 @@ static int use(int32_t threads) {
   morula_clump_options options;
   morula_solid_options grid;
   size_t n = 0;
-  morula_clump_options_init_(&options, sizeof options);
-  morula_solid_options_init_(&grid, sizeof grid);
+  if (morula_clump_options_init_(&options, sizeof options) ||
+      morula_solid_options_init_(&grid, sizeof grid))
+    return fprintf(stderr, "%s\n", morula_last_error_message_());
   options.spheres = 4;
   options.effort = MORULA_EFFORT_DRAFT;
   options.threads = threads;
@@ -66,7 +67,7 @@ static void *on_a_thread(void *user) {
 static long resident(void) {
   long pages = 0;
   FILE *file = fopen("/proc/self/statm", "r");
-  if (!file || fscanf(file, "%*d %ld", &pages) != 1) pages = 0;
+  if (!file || fscanf(file, "%*d %ld", &pages) != 1) failed = 1;
   if (file) fclose(file);
   return pages * (sysconf(_SC_PAGESIZE) / 1024);
 }
@@ -93,8 +94,8 @@ static void again_and_again(const char *how, int32_t threads, int own_thread) {
       exit(1);
     }
     if (own_thread) {
-      if (pthread_create(&thread, NULL, on_a_thread, &threads)) failed = 1;
-      pthread_join(thread, NULL);
+      if (pthread_create(&thread, NULL, on_a_thread, &threads) || pthread_join(thread, NULL))
+        failed = 1;
     } else if (use(threads)) {
       failed = 1;
     }
