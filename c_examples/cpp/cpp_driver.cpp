@@ -1,13 +1,15 @@
 // A driver as one writes it for MercuryDPM: load a shape, make a clump, hand
 // spheres, mass and inertia to the particle class, put it into the domain.
 //
-//   cpp_driver [MESH] [-n SPHERES] [--density RHO] [--unit LENGTH] [--csv PREFIX]
+//   cpp_driver [MESH] [-n SPHERES] [--density RHO] [--unit LENGTH] [--csv PREFIX] [--most D]
 //
 // Without a mesh it takes the built-in tablet, M&M, ellipsoid and a stone. It
-// prints one row for each shape; --csv writes PREFIX_<shape>.csv.
+// prints one row for each shape; --csv writes PREFIX_<shape>.csv; with --most it fails on a clump whose mismatch
+// is above D, or that has fewer spheres.
 #include <morula.hpp>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -83,7 +85,7 @@ ClumpParticle makeParticle(const morula::Clump &clump, double density) {
 struct Settings {
   std::string mesh, csv;
   std::uint64_t spheres = 50;
-  double density = 1.0, unit = 1.0;
+  double density = 1.0, unit = 1.0, most = HUGE_VAL;
 };
 
 void run(const std::string &name, const morula::Shape &shape, const Settings &settings) {
@@ -101,6 +103,9 @@ void run(const std::string &name, const morula::Shape &shape, const Settings &se
   std::printf("%-12s %7zu %8.4f %8.4f %10.4g %12.5g %8.1f\n", name.c_str(),
               particle.pebbleCount(), overlap.mismatch, overlap.coverage, surface.protrusion,
               particle.mass(), 1e3 * (c.seconds_solid + c.seconds_generate));
+  if (std::isfinite(settings.most) &&
+      (!(overlap.mismatch <= settings.most) || particle.pebbleCount() != settings.spheres))
+    throw std::runtime_error(name + " is not as close as --most asks");
   for (const std::string &note : shape.notes()) std::printf("  note: %s\n", note.c_str());
   if (!clump.note().empty()) std::printf("  note: %s\n", clump.note().c_str());
 
@@ -120,15 +125,17 @@ int main(int argc, char **argv) try {
   Settings settings;
   for (int i = 1; i < argc; ++i) {
     const std::string arg = argv[i];
-    const bool takes_value = arg == "-n" || arg == "--density" || arg == "--unit" || arg == "--csv";
+    const bool takes_value = arg == "-n" || arg == "--density" || arg == "--unit" || arg == "--csv" ||
+                             arg == "--most";
     if (arg[0] == '-' && (!takes_value || i + 1 == argc)) {
       std::cerr << "usage: cpp_driver [MESH] [-n SPHERES] [--density RHO] [--unit LENGTH] "
-                   "[--csv PREFIX]\n";
+                   "[--csv PREFIX] [--most D]\n";
       return 2;
     }
     if (arg == "-n") settings.spheres = std::strtoull(argv[++i], nullptr, 10);
     else if (arg == "--density") settings.density = std::strtod(argv[++i], nullptr);
     else if (arg == "--unit") settings.unit = std::strtod(argv[++i], nullptr);
+    else if (arg == "--most") settings.most = std::strtod(argv[++i], nullptr);
     else if (arg == "--csv") settings.csv = argv[++i];
     else settings.mesh = arg;
   }

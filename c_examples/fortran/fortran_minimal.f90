@@ -21,6 +21,8 @@ program fortran_minimal
     print '(4(g0, 1x))', xyzr(:, i)
   end do
   print '(a, g0)', 'mass ', body%mass
+  ! As a test it fails on another number of spheres or another mass: that of a tablet in closed form.
+  if (n /= 30 .or. abs(body%mass - 530.10276_c_double) > 1e-4_c_double) error stop 1
   call clump%destroy()
   call shape%destroy()
 end program fortran_minimal
