@@ -6,7 +6,7 @@ usage: cost.py MORULA [--no-peers] [--out docs/cost] [--keep FOLDER] [--parts NA
 --keep FOLDER: parts that were made are kept there and not made again; --parts makes only these.
 
 Without MORULA_DATA the built-in particles are all there is. With MORULA_PEER_PYTHON, an interpreter that has the
-packages `multisphere` and `clump-python`, those run in the same session on the same meshes (scripts/peer.py and
+packages `multisphere` and `clump-python`, those are run together with ours on the same meshes (scripts/peer.py and
 cost_peers.py), CLUMP with the parameters of Buchele et al. 2026, table 1. Times of others are processor seconds without imports, ours those
 of `morula compare --threads 1`. Writes OUT.md, OUT_peers.csv, OUT_mean.svg and, with chromium, OUT.png; what is missing is named.
 """
