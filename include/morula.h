@@ -1409,7 +1409,8 @@ typedef struct morula_break_totals {
   /// Kinetic energy of fragments and dust less that of the parent: rounding where the inertia
   /// of the held body is that of its solid.
   double energy;
-  /// The greatest entry of the held inertia less that of the pieces, over its greatest.
+  /// The greatest entry of the held inertia less that of the pieces, over its greatest; the greatest
+  /// number where the held body has none.
   double inertia_error;
   /// How far the held centre lies from that of the pieces, frame and unit of the shape: by so
   /// much the centres of all of them are shifted.

@@ -230,7 +230,7 @@ impl Held {
         }
         let spin = turn.inverse() * self.angular_velocity;
         let own = self.inertia.matrix();
-        let differs = (own - whole).amax() / own.amax().max(f64::MIN_POSITIVE);
+        let differs = part_of((own - whole).amax(), own.amax());
         let taken = if differs <= ROUNDING { spin } else { rigid(&whole, &(own * spin), &spin) };
         for m in &mut found {
             m.velocity += turn * taken.cross(&m.position);
@@ -239,6 +239,16 @@ impl Held {
         }
         let energy = 0.5 * (taken.dot(&(whole * taken)) - spin.dot(&(own * spin)));
         Ok(HandOver { pieces: found, energy, shift, inertia: differs })
+    }
+}
+
+/// `some` over `all`, and the greatest number where that is beyond the numbers: of a body without
+/// inertia for instance.
+fn part_of(some: f64, all: f64) -> f64 {
+    match some * 1e-300 < all {
+        true => some / all,
+        false if some > 0.0 => f64::MAX,
+        false => 0.0,
     }
 }
 

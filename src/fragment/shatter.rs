@@ -58,7 +58,8 @@ pub struct Shattered {
     /// Kinetic energy of all pieces less the parent's: rounding, where the solver's inertia is that
     /// of the solid.
     pub energy: f64,
-    /// The greatest difference of the solver's inertia from that of the pieces, over its greatest.
+    /// The greatest difference of the solver's inertia from that of the pieces, over its greatest;
+    /// the greatest number where the solver's body has none.
     pub inertia_error: f64,
     /// How far the solver's centre lies from the pieces', frame and unit of the shape.
     pub shift: crate::math::Vec3,
