@@ -80,6 +80,7 @@ fn what_fuzzing_begins_from_is_made() {
         ("voxels/tiff", bodies::voxels, 1),
         ("calls/breaks", bodies::calls, 6),
         ("calls/cache", bodies::calls, 4),
+        ("calls/grey", bodies::calls, 6),
         ("calls/labels", bodies::calls, 5),
         ("calls/many_shapes", bodies::calls, 7),
         ("calls/mask", bodies::calls, 3),

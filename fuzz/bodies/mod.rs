@@ -15,6 +15,7 @@
 
 mod calls;
 mod files;
+mod reads;
 mod serial;
 mod series;
 mod solver;

@@ -1,6 +1,7 @@
 //! Shapes, clumps and fragments from bytes.
 
 use super::files::look;
+use super::reads::{read_body, read_clump, read_fragments};
 use super::*;
 use std::ptr::{null, null_mut};
 use std::sync::OnceLock;
@@ -142,6 +143,7 @@ pub(super) unsafe fn look_at_clump(clump: *const morula_clump) {
         let mut xyzr = vec![0.0; 4 * n];
         assert!(ok(morula_clump_copy_spheres(clump, n, xyzr.as_mut_ptr())));
         spheres_are_real(&xyzr);
+        read_clump(clump);
         assert!(ok(morula_clump_stopped(clump, &mut stopped)));
         let mut moments: morula_moments = sized();
         if ok(morula_clump_moments(clump, 1.0, &mut moments)) {
@@ -164,6 +166,7 @@ pub(super) unsafe fn look_at_body(body: *const morula_body) {
     unsafe {
         let mut n = 0;
         assert!(ok(morula_body_sphere_count(body, &mut n)));
+        read_body(body);
         let mut masses = vec![0.0; n];
         assert!(ok(morula_body_copy_masses(body, n, masses.as_mut_ptr())));
         finite(&masses);
@@ -190,6 +193,7 @@ pub(super) unsafe fn look_at_fragments(fragments: *const morula_fragments) {
     unsafe {
         let mut count = 0;
         assert!(ok(morula_fragments_count(fragments, &mut count)));
+        read_fragments(fragments);
         for i in 0..count {
             let mut f: morula_fragment = sized();
             assert!(ok(morula_fragments_get(fragments, i, &mut f)));

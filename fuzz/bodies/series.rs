@@ -218,6 +218,11 @@ impl Host<'_> {
                 return;
             }
             assert!(ok(morula_sweep_count(sweep, &mut count)));
+            let mut lists: Vec<morula_swept> = (0..count).map(|_| sized()).collect();
+            assert!(ok(morula_sweep_copy(sweep, count, lists.as_mut_ptr())));
+            for list in &lists {
+                assert!(!CStr::from_ptr(morula_status_name(list.status)).is_empty());
+            }
             for k in 0..=count {
                 put!(self.cost, morula_cost_free, |new| morula_sweep_curve(sweep, k, new), |_| ());
             }

@@ -1,6 +1,7 @@
 //! The calls on solids, bodies and parents: what a solver asks for once it has a clump.
 
 use super::calls::{Host, put, tick};
+use super::reads::read_files;
 use super::serial::{look_at_body, look_at_fragments};
 use super::*;
 use std::ptr::{null, null_mut};
@@ -89,6 +90,7 @@ impl Host<'_> {
                 let mut count = 0;
                 assert!(ok(morula_files_count(files, &mut count)));
                 assert!(count > 0);
+                read_files(files);
                 morula_files_free(files);
             }
         }
