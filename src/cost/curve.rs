@@ -156,8 +156,9 @@ pub fn curve(solid: &Solid, options: &CurveOptions, run: &Run) -> Result<Curve> 
     let start = Instant::now();
     let first = options.counts.first().copied().unwrap_or(0);
     let most = options.counts.last().copied().unwrap_or(0);
-    let mut series = Series::new(solid, &options.generate, options.levels, most)?;
-    run.within([0.0, 0.05], || series.prepare(first, run))?;
+    let mut series = run
+        .within([0.0, 0.01], || Series::new(solid, &options.generate, options.levels, most, run))?;
+    run.within([0.01, 0.05], || series.prepare(first, run))?;
     made.prepared = start.elapsed().as_secs_f64();
     let prices = Prices::new(solid, options, made.diameter)?;
     let part = |k: usize| 0.05 + 0.95 * k as f64 / n as f64;

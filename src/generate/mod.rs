@@ -136,7 +136,8 @@ impl Default for GenerateOptions {
 /// Makes a clump.
 pub fn generate(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
     check(options, run)?;
-    let mut clump = run.time(Stage::Generate, || made(solid.with_told_axes()?, options, run))?;
+    let solid = run.time(Stage::Generate, || solid.with_told_axes(run))?;
+    let mut clump = run.time(Stage::Generate, || made(solid, options, run))?;
     keep_radii(&mut clump.spheres, options);
     // A cancelled call measures no more: the clump goes out without figures.
     if let Some(wanted) = &options.quality

@@ -43,6 +43,7 @@ impl<'a> Series<'a> {
         options: &'a GenerateOptions,
         levels: Levels,
         most: usize,
+        run: &Run,
     ) -> Result<Series<'a>> {
         let nest = [Method::Best, Method::Cover, Method::Euclidean];
         if levels == Levels::Nested && !nest.contains(&options.method) {
@@ -52,7 +53,7 @@ impl<'a> Series<'a> {
         }
         Memory::check(levels, &options.best)?;
         let memory = Memory::new(levels, most);
-        let solid = solid.with_told_axes()?;
+        let solid = solid.with_told_axes(run)?;
         Ok(Series { solid, options, levels, most, memory, last: None })
     }
 

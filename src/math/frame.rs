@@ -4,7 +4,8 @@ use super::{Axes, Inertia, Moments, Sphere, Vec3};
 /// lower corner of the bounding box, divided by a power of two, so that the
 /// longest edge lies in (0.5, 1]. Scaling the input by 2^k, or shifting it by
 /// an amount that its coordinates represent exactly, leaves every bit of the
-/// unit-frame shape as it was.
+/// unit-frame shape as it was. Methods work with the axes and the unit that the
+/// body tells by itself, which this leads back from as well.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct UnitFrame {
     /// Lower corner of the bounding box, in the caller's frame.

@@ -137,6 +137,8 @@ pub fn quality(
     options: &QualityOptions,
     run: &Run,
 ) -> Result<Quality> {
+    // In the body's own axes and unit, as the methods: what they keep to is what is measured.
+    let solid = solid.with_told_axes(run)?;
     let unit = check(solid, spheres, options)?;
     let scale = solid.frame().scale;
     let mut q = Quality::default();

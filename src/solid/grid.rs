@@ -5,6 +5,7 @@ use crate::error::{Error, Result, filled};
 use crate::math::{Moments, Vec3};
 use crate::run::{Run, Stage};
 use crate::shape::{Body, Mesh, Shape, Voxels};
+use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, OnceLock};
 
 /// How fine a grid is.
@@ -114,8 +115,13 @@ pub(super) fn coarser(solid: &Solid, mesh: &Mesh, cells: u32) -> Grid {
         return *grid;
     }
     let dims = [0, 1, 2].map(|a| (edges[a] / h).ceil().max(1.0) as usize + 2 * ROOM);
-    let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
-    Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half }
+    about([lo, hi], dims, h)
+}
+
+/// So many cubic cells about the middle of a box.
+pub(super) fn about([lo, hi]: [Vec3; 2], dims: [usize; 3], edge: f64) -> Grid {
+    let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * edge);
+    Grid { dims, spacing: Vec3::repeat(edge), origin: (lo + hi) * 0.5 - half }
 }
 
 /// Empty cells about the mesh in a coarser grid.
@@ -159,12 +165,14 @@ pub(super) fn build(shape: &Shape, options: &SolidOptions, run: &Run) -> Result<
             frame: shape.frame,
             grid,
             padding: options.padding,
+            early: inside.is_some(),
             inside: inside.map(OnceLock::from).unwrap_or_default(),
             distance: OnceLock::new(),
             surface: OnceLock::new(),
             moments,
             notes,
             memory_limit: options.memory_limit,
+            held: Arc::new(AtomicU64::new(cells)),
             told: OnceLock::new(),
         })
     })
@@ -274,8 +282,7 @@ fn of_mesh(
     }
     let made = |h: f64| {
         let dims = dims_of(h).map(|n| n as usize);
-        let half = Vec3::new(dims[0] as f64, dims[1] as f64, dims[2] as f64) * (0.5 * h);
-        let grid = Grid { dims, spacing: Vec3::repeat(h), origin: (lo + hi) * 0.5 - half };
+        let grid = about([lo, hi], dims, h);
         let limit = options.memory_limit;
         let (body, padding) = (&shape.body, options.padding);
         let most = AMPLE.1[usize::from(!mesh.clean)];

@@ -22,6 +22,7 @@ use crate::math::{Moments, PrincipalFrame, Sphere, UnitFrame, Vec3};
 use crate::run::Run;
 use crate::shape::{Body, Shape};
 use nearest::Surface;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
 /// How a solid is made.
@@ -50,11 +51,15 @@ pub struct Solid {
     grid: Grid,
     padding: usize,
     inside: OnceLock<Vec<u8>>,
+    /// Whether the cells inside were found when the solid was made.
+    early: bool,
     distance: OnceLock<Vec<f32>>,
     surface: OnceLock<Surface>,
     moments: Moments,
     notes: Vec<String>,
     memory_limit: u64,
+    /// Bytes of the large arrays of this solid and of the one below, or above, together.
+    held: Arc<AtomicU64>,
     /// Itself with the axes that the body tells, where they are others.
     told: OnceLock<Option<Box<Solid>>>,
 }
@@ -102,18 +107,22 @@ impl Solid {
         if self.surface.get().is_none() {
             let room = self.memory_limit.saturating_sub(self.bytes());
             let surface = Surface::within(&self.body, room)?;
-            let _ = self.surface.set(surface);
+            let bytes = surface.bytes();
+            if self.surface.set(surface).is_ok() {
+                self.hold(bytes);
+            }
             run.count(|c| c.peak_bytes = c.peak_bytes.max(self.bytes()));
         }
         self.surface.get().ok_or_else(|| Error::Internal("the surface was not kept".into()))
     }
 
-    /// Bytes of the large arrays that it holds.
+    /// Bytes of the large arrays that it holds, with those of itself in other axes.
     pub(crate) fn bytes(&self) -> u64 {
-        let cells = self.grid.len() as u64;
-        let distance = self.distance.get().map_or(0, |d| 4 * d.len() as u64);
-        let told = self.told.get().and_then(|t| t.as_deref()).map_or(0, Solid::bytes);
-        cells + distance + self.surface.get().map_or(0, |s| s.bytes()) + told
+        self.held.load(Ordering::Relaxed)
+    }
+
+    fn hold(&self, bytes: u64) {
+        self.held.fetch_add(bytes, Ordering::Relaxed);
     }
 
     /// Volume, centroid, inertia at unit density, in the caller's frame.
@@ -156,28 +165,29 @@ impl Solid {
         &self.notes
     }
 
-    /// The solid with the axes and the unit that the body tells, in which methods work: a body whose axes
-    /// are exchanged or mirrored, or of any other unit, has the same clump then. The frame leads back to
-    /// the caller's.
-    pub(crate) fn with_told_axes(&self) -> Result<&Solid> {
-        Ok(self.told()?.unwrap_or(self))
-    }
-
-    fn told(&self) -> Result<Option<&Solid>> {
+    /// The solid with the axes and the unit that the body tells, in which methods work and clumps are
+    /// measured: a body whose axes are exchanged or mirrored, or of any other unit, has the same clump
+    /// then. The frame leads back to the caller's.
+    pub(crate) fn with_told_axes(&self, run: &Run) -> Result<&Solid> {
         if self.told.get().is_none() {
-            let _ = self.told.set(told::turned(self)?.map(Box::new));
+            let told = told::turned(self, run)?.map(Box::new);
+            let bytes = told.as_deref().map_or(0, |t| t.grid.len() as u64 + told::bytes(&t.body));
+            if self.told.set(told).is_ok() {
+                self.hold(bytes);
+            }
+            run.count(|c| c.peak_bytes = c.peak_bytes.max(self.bytes()));
         }
-        Ok(self.told.get().and_then(|told| told.as_deref()))
+        Ok(self.told.get().and_then(|told| told.as_deref()).unwrap_or(self))
     }
 
     /// Signed distance at the cell centres, negative inside.
     pub fn distance(&self, run: &Run) -> Result<&[f32]> {
         if self.distance.get().is_none() {
-            let d = match self.told()? {
-                Some(told) => told::distance_back(self, told, run)?,
-                None => field::signed_distance(self, run)?,
-            };
-            let _ = self.distance.set(d);
+            let distance = field::signed_distance(self, run)?;
+            let bytes = 4 * distance.len() as u64;
+            if self.distance.set(distance).is_ok() {
+                self.hold(bytes);
+            }
         }
         Ok(self.distance.get().map_or(&[], |d| d.as_slice()))
     }

@@ -91,6 +91,19 @@ pub(super) fn within(body: &Body, limit: u64, run: &Run) -> Result<Moments> {
     }
 }
 
+/// The moments of a body whose moments are exact, in other axes or units: of the faces or cells alone.
+pub(super) fn of_exact(body: &Body, run: &Run) -> Result<Moments> {
+    match body {
+        Body::Voxels(v) => of_cells(v),
+        Body::Mesh(mesh) => {
+            let Some((lo, hi)) = bounds(mesh) else {
+                return Err(Error::Empty("the mesh has no face".into()));
+            };
+            Ok(of_polyhedron(mesh, &((lo + hi) * 0.5), run))
+        }
+    }
+}
+
 /// By how much more than the volume the centroid or the inertia may be wrong when a small share
 /// of the volume lies in the wrong place: at most as far off as the box reaches.
 fn felt(m: &Moments, lo: Vec3, hi: Vec3) -> f64 {

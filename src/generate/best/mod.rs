@@ -122,7 +122,7 @@ pub(super) fn after(
     };
     let held = solid.bytes() + field.bytes() + dexels.bytes();
     let columns = dexels.dims[0] * dexels.dims[1];
-    let start = seeds::bytes(&plan);
+    let start = (plan.starts as u64 - 1).max(1) * seeds::bytes(&plan);
     let later = 16 * columns as u64 + Piles::expected(columns, plan.columns, n);
     fits(format_args!("{n} spheres of the method best"), start.max(later), ground.room)?;
     run.count(|c| c.peak_bytes = c.peak_bytes.max(held + start));

@@ -157,6 +157,17 @@ pub fn apart(
     }))
 }
 
+/// The greatest distance of spheres, and difference of radii, from the images of others, in this order.
+pub fn images_apart(
+    a: &[Sphere],
+    of: &[Sphere],
+    image: impl Fn([f64; 3]) -> [f64; 3],
+) -> std::result::Result<f64, Miss> {
+    let images: Vec<Sphere> =
+        of.iter().map(|s| Sphere::new(image(s.center.into()).into(), s.radius)).collect();
+    apart(a, &images, 1.0, [0.0; 3])
+}
+
 /// Whether two clumps have as many spheres.
 pub fn same_number(a: &[Sphere], b: &[Sphere]) -> std::result::Result<(), Miss> {
     if a.len() != b.len() {

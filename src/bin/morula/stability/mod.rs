@@ -7,6 +7,7 @@ mod accumulation;
 mod algebra;
 pub mod bodies;
 mod convergence;
+mod found;
 mod invariance;
 #[cfg(feature = "dem")]
 mod motion;
@@ -15,6 +16,8 @@ mod references;
 mod shapes;
 #[cfg(feature = "dem")]
 mod stiffness;
+mod symmetry;
+mod voxels;
 
 use morula::error::{Error, figure};
 use std::fmt;

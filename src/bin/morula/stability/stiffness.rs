@@ -36,7 +36,7 @@ const BOUNDED: About = About {
 };
 
 const REFUSED: About = About {
-    measure: "1 where the run was stopped with its reason",
+    measure: "1 where the run was stopped with its reason, or ended with no energy gained",
     bound: Bound::AtLeast(1.0),
     why: "energy that comes from nothing is found out, whatever the step",
 };
