@@ -83,7 +83,7 @@ pub fn run(m: &mut Matrix) {
         m.case(format!("voxels, {name} times 2^-40"), &BITS, || {
             let small = 2f64.powi(-40);
             let put = bean.scaled(small).made(&ask)?.1;
-            Ok(apart(&put, &bean.made(&ask)?.1, small, [0.0; 3])?)
+            apart(&put, &bean.made(&ask)?.1, small, [0.0; 3])
         });
         m.case(format!("voxels, {name} times 7.7e5"), &PERCENT, || {
             let [a, b] = [bean.made(&ask)?, bean.scaled(7.7e5).made(&ask)?];
@@ -92,7 +92,7 @@ pub fn run(m: &mut Matrix) {
         });
         m.case(format!("voxels, {name} on 3 threads"), &BITS, || {
             let many = bean.made(&Ask { threads: 3, ..ask })?.1;
-            Ok(apart(&many, &bean.made(&ask)?.1, 1.0, [0.0; 3])?)
+            apart(&many, &bean.made(&ask)?.1, 1.0, [0.0; 3])
         });
         for (what, mirrored) in [("axes exchanged", false), ("exchanged and mirrored", true)] {
             m.case(format!("voxels, {name}, {what}"), &IMAGED, || {
