@@ -187,7 +187,8 @@ fn made(solid: &Solid, options: &GenerateOptions, run: &Run) -> Result<Clump> {
 }
 
 /// Makes a clump by [`Method::Inscribed`] of which no sphere leaves a further bound, such as the
-/// union of the spheres of another clump. The figures of quality are not made.
+/// union of the spheres of another clump. The figures of quality are not made. The bound is in the solid's
+/// unit frame, and so is the search: not in the axes that the body tells.
 pub fn inscribed_within(
     solid: &Solid,
     options: &GenerateOptions,

@@ -136,7 +136,8 @@ impl Solid {
     }
 
     /// The body frame: its axes, found in the unit frame so that they do not depend on the
-    /// caller's unit, and the principal moments at unit density in the caller's unit.
+    /// caller's unit, and the principal moments at unit density in the caller's unit. Of the solid as the
+    /// caller made it: methods do not ask.
     pub fn principal(&self) -> PrincipalFrame {
         let unit = PrincipalFrame::of_rounded(&self.moments.inertia, self.frame.noise());
         let s5 = self.frame.scale.powi(5);
