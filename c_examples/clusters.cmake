@@ -17,7 +17,8 @@ if(CMAKE_CXX_COMPILER AND mpiexec AND mpicxx)
   add_test(NAME mpi.checksums COMMAND ${CMAKE_COMMAND} "-DPROGRAMS=${programs}"
     "-DMPIEXEC=${mpiexec}" "-DFOLDER=${work}/mpi"
     -P "${CMAKE_CURRENT_SOURCE_DIR}/mpi/checksums.cmake")
-  set_tests_properties(mpi.checksums PROPERTIES FIXTURES_REQUIRED mpi TIMEOUT 900)
+  # Ranks wait for each other at every step: with cores of their own.
+  set_tests_properties(mpi.checksums PROPERTIES FIXTURES_REQUIRED mpi TIMEOUT 900 PROCESSORS 2)
 else()
   message(STATUS "skipped: the MPI examples (no mpirun and mpicxx: packages openmpi-bin and libopenmpi-dev)")
 endif()
@@ -28,7 +29,7 @@ if(lammps AND mpiexec)
   add_test(NAME lammps.elbows COMMAND ${CMAKE_COMMAND} "-DPROGRAM=${work}/lammps/clump_for_lammps"
     "-DLAMMPS=${lammps}" "-DMPIEXEC=${mpiexec}" "-DSOURCE=${CMAKE_CURRENT_SOURCE_DIR}/lammps"
     "-DFOLDER=${work}/lammps/run" -P "${CMAKE_CURRENT_SOURCE_DIR}/lammps/run.cmake")
-  set_tests_properties(lammps.elbows PROPERTIES FIXTURES_REQUIRED lammps TIMEOUT 600)
+  set_tests_properties(lammps.elbows PROPERTIES FIXTURES_REQUIRED lammps TIMEOUT 600 PROCESSORS 2)
 else()
   message(STATUS "skipped: the LAMMPS example (no lmp and mpirun: packages lammps and openmpi-bin)")
 endif()
