@@ -155,11 +155,13 @@ impl Host<'_> {
             ok(morula_parent_bytes(self.parent, &mut 0));
             ok(morula_shape_counters(self.shape, &mut sized()));
             ok(morula_solid_counters(self.solid, &mut sized()));
-            let (mut dims, mut spacing, mut origin) = ([0; 3], 0.0, [0.0; 3]);
-            let (d, s, o) = (dims.as_mut_ptr(), &raw mut spacing, origin.as_mut_ptr());
+            let (mut dims, mut spacing, mut origin) = ([0; 3], [0.0; 3], [0.0; 3]);
+            let (d, s, o) = (dims.as_mut_ptr(), spacing.as_mut_ptr(), origin.as_mut_ptr());
             let mut notes = 0;
             if ok(morula_solid_grid(self.solid, d, s, o)) {
-                assert!(dims.iter().all(|n| *n > 0) && spacing > 0.0, "{dims:?}, {spacing}");
+                let told = dims.iter().all(|n| *n > 0) && spacing.iter().all(|h| *h > 0.0);
+                assert!(told, "{dims:?}, {spacing:?}");
+                finite(&spacing);
                 finite(&origin);
                 assert!(ok(morula_solid_note_count(self.solid, &mut notes)));
             }
