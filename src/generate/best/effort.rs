@@ -81,7 +81,7 @@ impl Effort {
                 iterations: 100,
                 cells: u32::MAX,
                 columns: add(4000, 60),
-                starts: starts(3),
+                starts: starts(6),
                 moves: moves(4000, VERY_MANY),
                 around: 12,
                 polish: [384, 60],
