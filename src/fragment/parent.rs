@@ -145,11 +145,7 @@ impl Parent {
 
     /// The same with the solid.
     pub(super) fn all_bytes(&self) -> u64 {
-        let body = match self.solid.body() {
-            crate::shape::Body::Mesh(m) => 24 * m.vertices.len() + 12 * m.faces.len(),
-            crate::shape::Body::Voxels(v) => v.cells.len(),
-        };
-        self.bytes + self.held + body as u64
+        self.bytes + self.held + self.solid.body().bytes()
     }
 
     /// By what fragments know the first parent: FNV-1a, 128 bits, of its body in the unit frame and

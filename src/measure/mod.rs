@@ -222,3 +222,31 @@ fn check(solid: &Solid, spheres: &[Sphere], options: &QualityOptions) -> Result<
     }
     Ok(unit)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::{ImportOptions, Primitive, Shape};
+    use crate::solid::SolidOptions;
+
+    #[test]
+    fn a_clump_and_its_image_have_the_same_quality() {
+        let run = Run::serial();
+        let stone = Primitive::Stone { seed: 6, diameter: 1.0, roughness: 0.4 };
+        let (vertices, faces) = stone.mesh(12).unwrap();
+        let exact = vertices.iter().map(|p| p.map(|x| (x * 1048576.0).round() / 1048576.0));
+        let of = |image: fn([f64; 3]) -> [f64; 3]| {
+            let vertices: Vec<[f64; 3]> = exact.clone().map(image).collect();
+            let shape = Shape::from_mesh(&vertices, &faces, &ImportOptions::default(), &run);
+            let solid = Solid::new(&shape.unwrap(), &SolidOptions::default(), &run).unwrap();
+            let spheres = [([0.125, 0.0, -0.0625], 0.375), ([-0.1875, 0.25, 0.125], 0.25)]
+                .map(|(c, r)| Sphere::new(image(c).into(), r));
+            let options = QualityOptions { columns: 64, ..QualityOptions::default() };
+            quality(&solid, &spheres, &options, &run).unwrap()
+        };
+        let one = of(|p| p);
+        assert!(one.mismatch > 0.0 && one.protrusion > 0.0);
+        assert_eq!(one, of(|p| [p[2], p[0], p[1]]));
+        assert_eq!(one, of(|p| [p[0], -p[1], p[2]]));
+    }
+}

@@ -77,6 +77,14 @@ pub enum Body {
 }
 
 impl Body {
+    /// Bytes of its arrays.
+    pub(crate) fn bytes(&self) -> u64 {
+        match self {
+            Body::Mesh(mesh) => mesh.bytes(),
+            Body::Voxels(v) => v.cells.len() as u64,
+        }
+    }
+
     /// Whether it is a body as checks leave them: for bytes that come from outside.
     pub(crate) fn check(&self) -> Result<()> {
         match self {

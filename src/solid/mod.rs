@@ -172,7 +172,7 @@ impl Solid {
     pub(crate) fn with_told_axes(&self, run: &Run) -> Result<&Solid> {
         if self.told.get().is_none() {
             let told = told::turned(self, run)?.map(Box::new);
-            let bytes = told.as_deref().map_or(0, |t| t.grid.len() as u64 + told::bytes(&t.body));
+            let bytes = told.as_deref().map_or(0, |t| t.grid.len() as u64 + t.body.bytes());
             if self.told.set(told).is_ok() {
                 self.hold(bytes);
             }

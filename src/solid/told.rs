@@ -83,7 +83,7 @@ pub(super) fn turned(solid: &Solid, run: &Run) -> Result<Option<Solid>> {
     if axes.are_kept() && unit == 1.0 || !(unit.is_normal() && unit > 0.0) {
         return Ok(None);
     }
-    let copies = solid.grid.len() as u64 + bytes(&solid.body);
+    let copies = solid.grid.len() as u64 + solid.body.bytes();
     let room = solid.memory_limit.saturating_sub(solid.bytes());
     fits(format_args!("the body in the axes that it tells"), copies, room)?;
     // Mirrored before anything rounds, so that a body and its image have the same bytes.
@@ -135,14 +135,6 @@ pub(super) fn turned(solid: &Solid, run: &Run) -> Result<Option<Solid>> {
         held: Arc::clone(&solid.held),
         told: OnceLock::from(None),
     }))
-}
-
-/// Bytes of a body's arrays.
-pub(super) fn bytes(body: &Body) -> u64 {
-    match body {
-        Body::Mesh(mesh) => (24 * mesh.vertices.len() + 12 * mesh.faces.len()) as u64,
-        Body::Voxels(v) => v.cells.len() as u64,
-    }
 }
 
 fn numbers(dims: [usize; 3]) -> Vec3 {
@@ -332,7 +324,7 @@ mod tests {
         assert_eq!(here.bytes(), cells);
         let told = here.with_told_axes(&run).unwrap();
         assert!(!std::ptr::eq(told, &here));
-        let copies = cells + bytes(&here.body);
+        let copies = cells + here.body.bytes();
         assert_eq!((here.bytes(), told.bytes()), (cells + copies, cells + copies));
         told.distance(&run).unwrap();
         here.distance(&run).unwrap();

@@ -36,6 +36,11 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Bytes of its arrays.
+    pub(crate) fn bytes(&self) -> u64 {
+        (24 * self.vertices.len() + 12 * self.faces.len()) as u64
+    }
+
     /// The corners of face `i`.
     #[inline]
     pub fn corners(&self, i: usize) -> [Vec3; 3] {

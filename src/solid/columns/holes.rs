@@ -109,9 +109,8 @@ impl Cones {
     /// parts, than edges, and fewer groups than twice the parts; what is taken for each of its
     /// vertices while it is closed is counted as well.
     fn most_bytes(mesh: &Mesh, border: usize) -> u64 {
-        let mesh = 24 * mesh.vertices.len() as u64 + 12 * mesh.faces.len() as u64;
         let each = 24 + 12 + 8 + 8 + 32 + 8 + 3 * size_of::<Group>() as u64;
-        mesh + border as u64 * each + Winding::most_bytes(border)
+        mesh.bytes() + border as u64 * each + Winding::most_bytes(border)
     }
 
     /// Closes `mesh` at its `border`; refused where that may take more than `limit` bytes.
@@ -172,8 +171,8 @@ impl Cones {
     }
 
     pub(in crate::solid) fn bytes(&self) -> u64 {
-        let mesh = 24 * self.closed.vertices.len() + 12 * self.closed.faces.len();
-        (mesh + self.groups.capacity() * size_of::<Group>()) as u64 + self.winding.bytes()
+        let groups = (self.groups.capacity() * size_of::<Group>()) as u64;
+        self.closed.bytes() + groups + self.winding.bytes()
     }
 
     /// Winding number of the cones about `p`.

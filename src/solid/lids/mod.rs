@@ -129,10 +129,9 @@ pub(super) fn close(mesh: &Mesh, manifold: bool, limit: u64, run: &Run) -> Resul
 
 /// Most bytes that closing takes.
 fn most_bytes(mesh: &Mesh, border: usize) -> u64 {
-    let copy = 24 * mesh.vertices.len() as u64 + 12 * mesh.faces.len() as u64;
     let each = 24 + 12 + 4 * 16 + 3 * 24 + size_of::<Option<Lid>>() as u64;
     let marks = mesh.vertices.len() as u64;
-    copy + marks + border as u64 * each + Winding::most_bytes(mesh.faces.len())
+    mesh.bytes() + marks + border as u64 * each + Winding::most_bytes(mesh.faces.len())
 }
 
 /// The corners of a lid's triangle `i`; they face outward as the faces beside them do.
